@@ -1,0 +1,30 @@
+# add_module(NAME [DEPENDS module...] [LINKS target...] [OFFERS prefix...] [HIDES prefix...])
+#
+# One library per folder: vitruvia_NAME, made of every *.cpp of the calling folder.
+#   DEPENDS  modules whose headers it may include (tests/lint holds the #include lines against this list)
+#   LINKS    third-party targets
+#   OFFERS   third-party header prefixes that come in with this module; every module above may include them
+#   HIDES    third-party header prefixes that only this module's own files may include
+function(add_module name)
+  cmake_parse_arguments(ARG "" "" "DEPENDS;LINKS;OFFERS;HIDES" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS *.cpp)
+  list(TRANSFORM ARG_DEPENDS PREPEND vitruvia_)
+  if(sources)
+    add_library(vitruvia_${name} STATIC ${sources})
+    target_link_libraries(vitruvia_${name} PUBLIC vitruvia_options ${ARG_DEPENDS} ${ARG_LINKS})
+  else()
+    add_library(vitruvia_${name} INTERFACE)
+    target_link_libraries(vitruvia_${name} INTERFACE vitruvia_options ${ARG_DEPENDS} ${ARG_LINKS})
+  endif()
+endfunction()
+
+# add_module_tests(NAME [NEEDS module...]): one test program of every *_test.cpp of the calling folder.
+function(add_module_tests name)
+  cmake_parse_arguments(ARG "" "" "NEEDS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS *_test.cpp)
+  add_executable(${name}_tests ${sources})
+  list(TRANSFORM ARG_NEEDS PREPEND vitruvia_)
+  target_link_libraries(${name}_tests PRIVATE ${ARG_NEEDS} vitruvia_test_support)
+  gtest_discover_tests(${name}_tests TEST_PREFIX ${name}. DISCOVERY_MODE PRE_TEST
+    PROPERTIES TIMEOUT 240)
+endfunction()

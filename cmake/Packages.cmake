@@ -1,0 +1,23 @@
+# All third-party packages, from Debian 12; the Makefile installs them.
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(fmt 9 REQUIRED)
+find_package(Eigen3 3.4 REQUIRED)
+find_package(OpenMesh REQUIRED)
+find_package(Ceres 2.1 REQUIRED)
+find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgcodecs imgproc)
+find_package(CLI11 2.1 REQUIRED)
+find_package(VTK 9.1 REQUIRED COMPONENTS
+  ChartsCore CommonColor CommonCore CommonDataModel FiltersCore FiltersGeneral FiltersSources IOExport IOImage
+  IOXML RenderingAnnotation RenderingContext2D RenderingContextOpenGL2 RenderingCore RenderingFreeType
+  RenderingOpenGL2 ViewsContext2D)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
+pkg_check_modules(FLANN REQUIRED IMPORTED_TARGET flann)
+
+# Third-party headers are not ours to warn about.
+foreach(target nlohmann_json::nlohmann_json fmt::fmt Eigen3::Eigen PkgConfig::OSMESA PkgConfig::FLANN)
+  get_target_property(includes ${target} INTERFACE_INCLUDE_DIRECTORIES)
+  if(includes)
+    set_target_properties(${target} PROPERTIES INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${includes}")
+  endif()
+endforeach()

@@ -1,0 +1,37 @@
+// Files are written whole or not at all: under a temporary name first, then renamed.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace vitruvia {
+
+// DataError naming the file if it cannot be read.
+std::string ReadWholeFile(const std::filesystem::path& file);
+
+// RunError naming the file if it cannot be written; then nothing is left behind.
+void WriteWholeFile(const std::filesystem::path& file, std::string_view content);
+
+// RunError naming the folder and the reason if it neither exists nor can be made.
+void MakeFolder(const std::filesystem::path& folder);
+
+// A folder that is filled under a temporary name beside its destination and appears there only on
+// Commit(); an uncommitted one is removed again. An existing destination is replaced on Commit().
+class StagedFolder {
+ public:
+  explicit StagedFolder(std::filesystem::path destination);
+  ~StagedFolder();
+  StagedFolder(const StagedFolder&) = delete;
+  StagedFolder& operator=(const StagedFolder&) = delete;
+
+  const std::filesystem::path& path() const { return staging_; }
+  void Commit();
+
+ private:
+  std::filesystem::path destination_, staging_;
+  bool committed_ = false;
+};
+
+}  // namespace vitruvia

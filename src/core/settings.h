@@ -1,0 +1,124 @@
+// Settings that describe themselves.
+//
+// A struct of settings has one member function `void Describe(Fields& fields)` that names each
+// member once, with its meaning, unit, range and where its default comes from. The strict JSON
+// reader, the writer of resolved configs and `vitruvia explain` all walk that one description, so a
+// default, a range and a unit stand in exactly one place. An optional member
+// `std::string Problem() const` checks what no single field can ("" when all is well).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace vitruvia {
+
+// Where a default comes from.
+enum class Origin {
+  kPaper,    // printed in the paper that the field's source names
+  kGuessed,  // the paper is silent; a reading of ours, not yet decided by a sweep
+  kTuned,    // chosen by a measurement that the field's source names
+  kInput,    // a fact about a scene or an experiment: the user's to state
+};
+const char* Name(Origin origin);
+
+struct About {
+  const char* meaning = "";
+  const char* unit = "";
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  Origin origin = Origin::kInput;
+  const char* source = "";  // equation, section or measurement behind the default
+  bool required = false;
+};
+
+template <class Enum>
+using Choices = std::initializer_list<std::pair<const char*, Enum>>;
+
+// Visitor over the fields of a settings struct. Readers write through the references; writers and
+// explainers only look.
+class Fields {
+ public:
+  virtual ~Fields() = default;
+
+  virtual void Number(const char* key, double& value, const About& about) = 0;
+  virtual void Integer(const char* key, int& value, const About& about) = 0;
+  virtual void Flag(const char* key, bool& value, const About& about) = 0;
+  virtual void Text(const char* key, std::string& value, const About& about) = 0;
+  // A file or folder; relative ones are relative to the config file that holds them, and a leading
+  // $NAME/ is an environment variable.
+  virtual void File(const char* key, std::filesystem::path& value, const About& about) = 0;
+  // Exactly N numbers.
+  virtual void Numbers(const char* key, std::span<double> values, const About& about) = 0;
+  // A free JSON value, kept as it is: overrides that another reader will check.
+  virtual void FreeJson(const char* key, nlohmann::json& value, const About& about) = 0;
+  virtual void Texts(const char* key, std::vector<std::string>& values, const About& about) = 0;
+  virtual void Files(const char* key, std::vector<std::filesystem::path>& values,
+                     const About& about) = 0;
+  virtual void Integers(const char* key, std::vector<int>& values, const About& about) = 0;
+
+  template <class Enum>
+  void Choice(const char* key, Enum& value, Choices<Enum> choices, const About& about) {
+    std::vector<const char*> names;
+    std::size_t index = 0;
+    for (const auto& [name, candidate] : choices) {
+      if (candidate == value) index = names.size();
+      names.push_back(name);
+    }
+    ChoiceIndex(key, index, names, about);
+    value = (choices.begin() + index)->second;
+  }
+
+  template <class Struct>
+  void Section(const char* key, Struct& value, const About& about) {
+    if (!BeginSection(key, about)) return;
+    Visit(value);
+    EndSection();
+  }
+
+  // Items are read onto default-constructed structs.
+  template <class Struct>
+  void List(const char* key, std::vector<Struct>& values, const About& about) {
+    std::size_t count = values.size();
+    if (!BeginList(key, count, about)) return;
+    values.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      BeginItem(i);
+      Visit(values[i]);
+      EndItem();
+    }
+    EndList();
+  }
+
+  // True when fields that depend on an earlier choice are to be visited; an explainer visits all.
+  virtual bool Applies(bool condition) { return condition; }
+
+  template <class Struct>
+  void Visit(Struct& value) {
+    value.Describe(*this);
+    if constexpr (requires { value.Problem(); }) {
+      if (WantsProblems()) ReportProblem(value.Problem());
+    }
+  }
+
+ protected:
+  virtual void ChoiceIndex(const char* key, std::size_t& index, std::span<const char* const> names,
+                           const About& about) = 0;
+  virtual bool BeginSection(const char* key, const About& about) = 0;
+  virtual void EndSection() = 0;
+  virtual bool BeginList(const char* key, std::size_t& count, const About& about) = 0;
+  virtual void BeginItem(std::size_t index) = 0;
+  virtual void EndItem() = 0;
+  virtual void EndList() = 0;
+  virtual bool WantsProblems() const { return false; }
+  virtual void ReportProblem(const std::string& /*problem*/) {}
+};
+
+}  // namespace vitruvia

@@ -1,0 +1,48 @@
+// Triangle meshes in flat arrays, and what follows from them alone.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "math/rigid.h"
+
+namespace vitruvia {
+
+using Vector3f = Vector3<float>;
+using Vector3d = Vector3<double>;
+using Triangle = std::array<std::int32_t, 3>;
+using Quad = std::array<std::int32_t, 4>;
+
+struct TriangleMesh {
+  std::vector<Vector3f> vertices;   // V, metres
+  std::vector<Triangle> triangles;  // counter-clockwise seen from outside
+};
+
+// A mesh of quads only: what Catmull–Clark subdivision takes and gives.
+struct QuadMesh {
+  std::vector<Vector3f> vertices;
+  std::vector<Quad> quads;  // counter-clockwise seen from outside
+};
+
+TriangleMesh Triangulated(const QuadMesh& mesh);  // each quad split along its shorter diagonal
+
+// Area-weighted vertex normals (V, unit length; zero where a vertex has no area).
+void ComputeVertexNormals(const std::vector<Vector3f>& vertices,
+                          const std::vector<Triangle>& triangles, std::vector<Vector3f>& normals);
+
+double EnclosedVolume(const TriangleMesh& mesh);  // m³, divergence theorem; mesh must be closed
+double BoundingBoxDiagonal(const std::vector<Vector3f>& vertices);  // metres
+
+// What a body mesh must be. `problem` is "" when the mesh is one closed, consistently oriented
+// 2-manifold of finite vertices without degenerate triangles.
+struct MeshReport {
+  int components = 0;
+  int euler_characteristic = 0;
+  bool closed = false;
+  std::string problem;
+};
+MeshReport InspectMesh(const TriangleMesh& mesh);
+
+}  // namespace vitruvia

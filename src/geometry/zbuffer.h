@@ -1,0 +1,29 @@
+// A small z-buffer: depth of a triangle mesh seen by a pinhole camera.
+//
+// Pixel centres sample the triangles with perspective-correct depth (1/z is linear in the image).
+// Triangles with a vertex nearer than `near_m` are left out whole: a tracked body stands in front
+// of the camera. Both sides of a triangle are drawn.
+#pragma once
+
+#include "geometry/camera.h"
+#include "geometry/image.h"
+#include "geometry/mesh.h"
+
+namespace vitruvia {
+
+class ZBuffer {
+ public:
+  explicit ZBuffer(const PinholeCamera& camera, float near_m = 0.05f);
+
+  // Draws into a cleared buffer. The result stays valid until the next call.
+  const DepthImage& Render(const std::vector<Vector3f>& vertices_in_camera,
+                           const std::vector<Triangle>& triangles);
+
+ private:
+  PinholeCamera camera_;
+  float near_m_;
+  DepthImage depth_;
+  std::vector<Vector3f> projected_;  // u, v, 1/z
+};
+
+}  // namespace vitruvia

@@ -1,0 +1,54 @@
+// What a tracker said of a sequence, stored raw so that every metric can be computed again.
+//
+//   estimate.json   format, version, vertex count, and per frame: outcome, message, iterations,
+//                   frame_ms, step_ms, energies, condition, joints (camera frame, metres)
+//   vertices.bin    float32 [frames][vertices][3], camera frame, metres, little-endian
+//   mesh.ply        triangles and rest pose of the tracked surface
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tracking/tracker.h"
+
+namespace vitruvia {
+
+struct FrameEstimate {
+  Outcome outcome = Outcome::kNoData;
+  std::string message;
+  int iterations = 0;
+  double frame_ms = 0.0;  // wall clock round TrackFrame only
+  std::vector<NamedValue> step_ms, energies;
+  double condition = -1.0;
+  std::vector<Vector3<double>> joints;
+};
+
+class EstimateWriter {
+ public:
+  EstimateWriter(std::filesystem::path folder, const TriangleMesh& rest_mesh);
+  ~EstimateWriter();
+  void Append(const TrackResult& result, double frame_ms);
+  void Finish();  // moves the folder into place; without it nothing is left behind
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// Throws DataError if a file is missing, damaged or of the wrong size.
+class EstimateReader {
+ public:
+  explicit EstimateReader(std::filesystem::path folder);
+  const TriangleMesh& rest_mesh() const { return rest_mesh_; }
+  const std::vector<FrameEstimate>& frames() const { return frames_; }
+  std::vector<Vector3f> ReadVertices(int frame) const;
+
+ private:
+  std::filesystem::path folder_;
+  TriangleMesh rest_mesh_;
+  std::vector<FrameEstimate> frames_;
+};
+
+}  // namespace vitruvia

@@ -1,0 +1,79 @@
+// Run records: what the runner stores of each run, and all that reports are drawn from.
+//
+// An experiment's folder:
+//   experiment.json        ExperimentRecord: title, what the paper says, which runs belong to it
+//   summary.json           { "experiment", "rows": [ one flat object per run ] }
+//   <run id>/record.json   RunRecord
+//   <run id>/estimate/     see estimate.h
+//   <run id>/status, log   "done" or what went wrong; the run's own messages
+//   report.html, table.csv, table.tex, figures/*.png, figures/*.svg
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace vitruvia {
+
+// A number that a paper prints, to be set beside ours.
+struct Expectation {
+  std::string metric;    // a key of the summary row
+  double paper = 0.0;    // published value
+  double at_most = 0.0;  // our target; NaN: none
+  std::string source;    // "paper A, figure 11"
+  std::string remark;    // how the work differs
+
+  friend void to_json(nlohmann::json& json, const Expectation& e);
+  friend void from_json(const nlohmann::json& json, Expectation& e);
+};
+
+struct RunRecord {
+  std::string run_id, experiment, variant, scene, method;
+  int seed = 0;
+  std::filesystem::path sequence_folder;  // relative to the experiment's folder
+  std::string sequence_hash;
+  nlohmann::json config;      // resolved: { "scene": …, "method": … }
+  nlohmann::json provenance;  // commit, compiler, flags, CPU, threads (core/build_info.h)
+  nlohmann::json summary;     // the row: flat, metric → number or text
+  // Per frame, all of one length. At least: l2_mean_m, l2_max_m, l2_mean_visible_m,
+  // l2_mean_hidden_m, joint_error_mean_m, frame_ms, iterations, failed (0 or 1).
+  std::map<std::string, std::vector<double>> frames;
+  // Share of (frame, joint) pairs with an error of at most threshold_m[i], per class all / visible
+  // / hidden.
+  std::vector<double> threshold_m;
+  std::map<std::string, std::vector<double>> joint_accuracy;
+  std::map<std::string, double> joint_error_mean_m;  // per joint name
+  struct Step {
+    std::string name;
+    double median_ms = 0, p95_ms = 0, max_ms = 0;
+  };
+  std::vector<Step> steps;  // per frame, in the method's order
+  double diagonal_m = 0.0;  // of the true subject's rest-pose bounding box
+
+  friend void to_json(nlohmann::json& json, const RunRecord& r);
+  friend void from_json(const nlohmann::json& json, RunRecord& r);
+};
+
+struct ExperimentRecord {
+  std::string name;  // the config's path below configs/, e.g. "realtime_scape/fig11"
+  std::string title, description;
+  std::vector<Expectation> expectations;
+  std::vector<int> picture_frames;   // where the report's picture strips are taken
+  std::vector<std::string> run_ids;  // in the order of the grid; a missing run is reported as such
+  std::map<std::string, std::string> failed_runs;  // run id → reason
+
+  friend void to_json(nlohmann::json& json, const ExperimentRecord& e);
+  friend void from_json(const nlohmann::json& json, ExperimentRecord& e);
+};
+
+// DataError naming the file if it is missing, damaged or lacks a key.
+ExperimentRecord ReadExperimentRecord(const std::filesystem::path& experiment_folder);
+RunRecord ReadRunRecord(const std::filesystem::path& experiment_folder, const std::string& run_id);
+void WriteExperimentRecord(const std::filesystem::path& experiment_folder,
+                           const ExperimentRecord& record);
+void WriteRunRecord(const std::filesystem::path& experiment_folder, const RunRecord& record);
+
+}  // namespace vitruvia

@@ -1,0 +1,82 @@
+// The sequence format: depth frames of one subject with their ground truth.
+//
+//   sequence.json        format, version, camera, depth_unit_m, fps, frames, joints, provenance
+//   depth/000000.png     16-bit, × depth_unit_m metres along z, 0 = no measurement
+//   mask/000000.png      optional, 8-bit: 0 = background
+//   truth/joints.json    per frame and joint: position (camera frame, metres), visible flag
+//   truth/mesh.ply       triangles and rest pose (subject frame) of the true surface
+//   truth/vertices.bin   float32 [frames][vertices][3], camera frame, metres, little-endian
+//   subject/             what a tracker may know (see body/body_model.h)
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "body/body_model.h"
+#include "geometry/camera.h"
+#include "geometry/image.h"
+
+namespace vitruvia {
+
+struct SequenceInfo {
+  PinholeCamera camera;
+  double depth_unit_m = 0.001;
+  double fps = 30.0;
+  int frames = 0;
+  std::vector<std::string> joints;                       // names, in the order of truth/joints.json
+  nlohmann::json provenance = nlohmann::json::object();  // how it was made; free form
+};
+
+struct JointTruth {
+  std::vector<Vector3<double>> positions;  // camera frame, metres
+  std::vector<bool> visible;  // seen by the camera: not behind anything, not out of view
+};
+
+// Reads lazily: construction checks the small files and the sizes of the large ones, frames are
+// decoded on demand. All members throw DataError naming the file and what is wrong with it.
+class SequenceReader {
+ public:
+  explicit SequenceReader(std::filesystem::path folder);
+
+  const std::filesystem::path& folder() const { return folder_; }
+  const SequenceInfo& info() const { return info_; }
+  const BodyModel& subject() const { return subject_; }
+  const TriangleMesh& true_rest_mesh() const { return true_rest_mesh_; }
+  DepthImage ReadDepth(int frame) const;  // mask applied where there is one
+  const JointTruth& true_joints(int frame) const;
+  std::vector<Vector3f> ReadTrueVertices(int frame) const;
+  std::string hash() const;  // of every file's content, 16 hex digits
+
+ private:
+  std::filesystem::path folder_;
+  SequenceInfo info_;
+  BodyModel subject_;
+  TriangleMesh true_rest_mesh_;
+  std::vector<JointTruth> true_joints_;
+};
+
+// Writes a sequence whole or not at all: everything goes to a temporary folder that Finish() moves
+// into place.
+class SequenceWriter {
+ public:
+  SequenceWriter(std::filesystem::path folder, SequenceInfo info, const BodyModel& subject,
+                 const TriangleMesh& true_rest_mesh);
+  ~SequenceWriter();
+
+  void Append(const DepthImage& depth, const std::vector<Vector3f>& true_vertices,
+              const JointTruth& joints);
+  void Finish();  // throws std::logic_error unless exactly info.frames frames were appended
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// Decodes everything. Throws DataError at the first damaged or inconsistent piece.
+void VerifySequence(const std::filesystem::path& folder);
+
+}  // namespace vitruvia

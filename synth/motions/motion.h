@@ -1,0 +1,46 @@
+// Motions: joint poses over time, from key frames or motion capture, for any body.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "body/skeleton.h"
+#include "core/settings.h"
+
+namespace vitruvia {
+
+enum class MotionSource { kKeyframes, kCmu, kBvh };
+
+struct MotionSettings {
+  MotionSource source = MotionSource::kKeyframes;
+  std::filesystem::path file;      // .json, .amc or .bvh
+  std::filesystem::path skeleton;  // .asf, cmu only
+  double start_s = 0.0;            // time in the motion at which the sequence begins
+  double speed = 1.0;              // playback rate
+  double rest_s = 0.5;             // the subject stands in the T-pose that long, first
+  double blend_s = 0.7;            // and takes that long from the T-pose to the motion's first pose
+  double heading_deg = 0.0;        // turns the whole motion about the vertical
+
+  void Describe(Fields& fields);
+};
+
+struct MotionSample {
+  JointPose pose;
+  // Where the body is to be put vertically: true: so that its lowest surface point is clearance_m
+  // above the floor; false: pelvis_position says it all.
+  bool grounded = true;
+  double clearance_m = 0.0;
+};
+
+class Motion {
+ public:
+  virtual ~Motion() = default;
+  virtual MotionSample At(double time_s) const = 0;  // 0 … duration; held at the ends, or looped
+  virtual double duration_s() const = 0;
+};
+
+// The motion retargeted to a body, with the T-pose lead-in of the settings. DataError / ConfigError
+// naming the file and line on damaged files, unknown joints or angles beyond a joint's limits.
+std::unique_ptr<Motion> LoadMotion(const MotionSettings& settings, const Skeleton& skeleton);
+
+}  // namespace vitruvia

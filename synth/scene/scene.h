@@ -1,0 +1,50 @@
+// A scene: who moves how before which camera, and how the truth differs from the tracker's model.
+#pragma once
+
+#include <filesystem>
+
+#include "core/settings.h"
+#include "geometry/camera.h"
+#include "synth/bodies/body_source.h"
+#include "synth/motions/motion.h"
+#include "synth/sensor/sensor.h"
+
+namespace vitruvia {
+
+enum class Skinning { kLinear, kDualQuaternion };
+
+struct TruthSettings {
+  Skinning skinning = Skinning::kLinear;
+  RefinementSettings refinement;
+
+  void Describe(Fields& fields);
+};
+
+struct ViewSettings {
+  PinholeCamera camera;
+  std::array<double, 3> position_m{
+      0.0, 1.0, 2.8};  // subject frame's axes, origin on the floor under the start
+  std::array<double, 3> look_at_m{0.0, 0.95, 0.0};
+
+  void Describe(Fields& fields);
+};
+
+struct SceneSettings {
+  std::string title;
+  BodySettings body;
+  MotionSettings motion;
+  TruthSettings truth;         // the surface that is rendered
+  RefinementSettings subject;  // the template that a tracker is given
+  ViewSettings view;
+  SensorSettings sensor;
+  int frames = 300;
+  double fps = 30.0;
+  int seed = 1;
+
+  void Describe(Fields& fields);
+};
+
+// Renders the scene and writes the sequence (sequence/sequence.h). Same settings: same bytes.
+void SynthesizeSequence(const SceneSettings& settings, const std::filesystem::path& folder);
+
+}  // namespace vitruvia
