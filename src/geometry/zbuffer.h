@@ -20,6 +20,9 @@ class ZBuffer {
                            const std::vector<Triangle>& triangles);
 
  private:
+  void Project(const std::vector<Vector3f>& vertices_in_camera);
+  void DrawTriangle(const Triangle& triangle);
+
   PinholeCamera camera_;
   float near_m_;
   DepthImage depth_;
