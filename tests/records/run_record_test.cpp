@@ -1,0 +1,169 @@
+#include "records/run_record.h"
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include <gmock/gmock.h>
+
+#include "core/error.h"
+#include "core/files.h"
+
+namespace vitruvia {
+namespace {
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+class RunRecordTest : public testing::Test {
+ protected:
+  RunRecordTest() { fs::remove_all(folder_); }
+  ~RunRecordTest() override { fs::remove_all(folder_); }
+  fs::path folder_ =
+      fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+};
+
+RunRecord SomeRun() {
+  RunRecord r;
+  r.run_id = "fig11-base-s1";
+  r.experiment = "realtime_scape/fig11";
+  r.variant = "base";
+  r.scene = "walk";
+  r.method = "realtime_scape";
+  r.seed = 1;
+  r.sequence_folder = "../../cache/walk";
+  r.sequence_hash = "0123456789abcdef";
+  r.config = {{"method", {{"lambda", 0.1}}}};
+  r.provenance = {{"commit", "abc"}, {"threads", 2}};
+  r.summary = {{"l2_mean_m", 1.0 / 3.0}, {"variant", "base"}, {"hidden", nullptr}};
+  r.frames = {{"l2_mean_m", {0.1, std::nextafter(0.1, 1.0)}}, {"l2_mean_hidden_m", {kNan, 5e-324}}};
+  r.threshold_m = {0.0, 0.1, 0.2};
+  r.joint_accuracy = {{"all", {0.0, 0.7, 1.0}}, {"hidden", {kNan, kNan, kNan}}};
+  r.joint_error_mean_m = {{"left_wrist", 0.012345678901234567}, {"head", kNan}};
+  r.steps = {{"render", 0.5, 0.75, 1.0}, {"assemble", 0.1, 0.2, 0.3}};
+  r.diagonal_m = 2.5 / 7.0;
+  return r;
+}
+
+std::string MessageOfReading(const fs::path& folder, const std::string& run_id) {
+  try {
+    ReadRunRecord(folder, run_id);
+  } catch (const DataError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST_F(RunRecordTest, RoundTripsEveryNumberExactly) {
+  const RunRecord written = SomeRun();
+  WriteRunRecord(folder_, written);
+  const RunRecord read = ReadRunRecord(folder_, written.run_id);
+  EXPECT_EQ(json(read), json(written));  // every text, and numbers to the bit
+  EXPECT_EQ(read.frames.at("l2_mean_m"), written.frames.at("l2_mean_m"));
+  EXPECT_TRUE(std::isnan(read.frames.at("l2_mean_hidden_m")[0]));
+  EXPECT_EQ(read.frames.at("l2_mean_hidden_m")[1], 5e-324);
+  EXPECT_TRUE(std::isnan(read.joint_error_mean_m.at("head")));
+  EXPECT_EQ(read.diagonal_m, 2.5 / 7.0);
+  EXPECT_EQ(read.steps[1].name, "assemble");
+  EXPECT_EQ(read.steps[0].p95_ms, 0.75);
+}
+
+TEST_F(RunRecordTest, RefusesToStoreWhatJsonCannotHold) {
+  RunRecord record = SomeRun();
+  record.summary["l2_mean_m"] = kNan;
+  EXPECT_THAT([&] { WriteRunRecord(folder_, record); },
+              testing::ThrowsMessage<std::invalid_argument>(
+                  "summary.l2_mean_m = nan: only finite numbers can be stored"));
+  record = SomeRun();
+  record.frames["l2_mean_m"][1] = std::numeric_limits<double>::infinity();
+  EXPECT_THAT([&] { WriteRunRecord(folder_, record); },
+              testing::ThrowsMessage<std::invalid_argument>(HasSubstr("frames.l2_mean_m = inf")));
+  EXPECT_FALSE(fs::exists(folder_));
+}
+
+TEST_F(RunRecordTest, NamesFileAndKeyOfEveryMissingKey) {
+  const RunRecord record = SomeRun();
+  WriteRunRecord(folder_, record);
+  const fs::path file = folder_ / record.run_id / "record.json";
+  const json whole = json::parse(ReadWholeFile(file));
+  for (const auto& item : whole.items()) {
+    json damaged = whole;
+    damaged.erase(item.key());
+    WriteWholeFile(file, damaged.dump());
+    EXPECT_EQ(MessageOfReading(folder_, record.run_id),
+              file.string() + ": " + item.key() + ": key missing");
+  }
+  json damaged = whole;
+  damaged["steps"][1].erase("p95_ms");
+  WriteWholeFile(file, damaged.dump());
+  EXPECT_EQ(MessageOfReading(folder_, record.run_id),
+            file.string() + ": steps[1].p95_ms: key missing");
+}
+
+TEST_F(RunRecordTest, NamesWhatIsInconsistent) {
+  const RunRecord record = SomeRun();
+  WriteRunRecord(folder_, record);
+  const fs::path file = folder_ / record.run_id / "record.json";
+  const json whole = json::parse(ReadWholeFile(file));
+
+  json damaged = whole;
+  damaged["frames"]["l2_mean_m"].erase(1);
+  WriteWholeFile(file, damaged.dump());
+  EXPECT_THAT(MessageOfReading(folder_, record.run_id),
+              HasSubstr("frames.l2_mean_m: expected 2 values, found 1"));
+
+  damaged = whole;
+  damaged["joint_accuracy"]["all"].push_back(1.0);
+  WriteWholeFile(file, damaged.dump());
+  EXPECT_THAT(MessageOfReading(folder_, record.run_id),
+              HasSubstr("joint_accuracy.all: expected 3 values, found 4"));
+
+  damaged = whole;
+  damaged["seed"] = "one";
+  WriteWholeFile(file, damaged.dump());
+  EXPECT_EQ(MessageOfReading(folder_, record.run_id),
+            file.string() + ": seed: expected an integer, got \"one\"");
+
+  damaged = whole;
+  damaged["run_id"] = "another";
+  WriteWholeFile(file, damaged.dump());
+  EXPECT_THAT(MessageOfReading(folder_, record.run_id),
+              HasSubstr("run_id: expected the folder's name \"fig11-base-s1\", got \"another\""));
+
+  WriteWholeFile(file, whole.dump().substr(0, 100));
+  EXPECT_THAT(MessageOfReading(folder_, record.run_id), HasSubstr(file.string() + ": not JSON: "));
+  EXPECT_THAT(MessageOfReading(folder_, "absent"), HasSubstr("cannot be opened for reading"));
+}
+
+TEST_F(RunRecordTest, ExperimentRoundTripsWithAndWithoutATarget) {
+  ExperimentRecord written;
+  written.name = "realtime_scape/fig11";
+  written.title = "Figure 11";
+  written.description = "Mean and maximum error.";
+  written.expectations = {{"l2_mean_of_diagonal", 0.001, 0.001, "paper A, figure 11", "other body"},
+                          {"frame_ms_median", 25.0, kNan, "paper A, table 1", "other CPU"}};
+  written.picture_frames = {0, 150};
+  written.run_ids = {"a", "b"};
+  written.failed_runs = {{"b", "lost in frame 3"}};
+  WriteExperimentRecord(folder_, written);
+  const ExperimentRecord read = ReadExperimentRecord(folder_);
+  EXPECT_EQ(json(read), json(written));
+  EXPECT_TRUE(std::isnan(read.expectations[1].at_most));
+  EXPECT_TRUE(json(written)["expectations"][1]["at_most"].is_null());
+
+  json damaged = written;
+  damaged["expectations"][1].erase("paper");
+  WriteWholeFile(folder_ / "experiment.json", damaged.dump());
+  EXPECT_THAT([&] { ReadExperimentRecord(folder_); },
+              testing::ThrowsMessage<DataError>((folder_ / "experiment.json").string() +
+                                                ": expectations[1].paper: key missing"));
+}
+
+TEST_F(RunRecordTest, FolderWithoutAnExperimentIsBadData) {
+  EXPECT_THROW(ReadExperimentRecord(folder_), DataError);
+}
+
+}  // namespace
+}  // namespace vitruvia
