@@ -1,0 +1,17 @@
+// Key-framed motions (keyframes_file.h) of a body.
+#pragma once
+
+#include <memory>
+
+#include "synth/motions/keyframes_file.h"
+#include "synth/motions/motion.h"
+
+namespace vitruvia {
+
+// All samples are grounded. Horizontally the pelvis follows the key frames' path, plus what keeps
+// the planted limbs where they are: with limb positions p_i(t) relative to the pelvis and weights
+// w_i(t) that change linearly between key frames, −∫ Σ w_i dp_i.
+std::unique_ptr<Motion> MakeKeyframedMotion(const KeyframeSequence& sequence,
+                                            const Skeleton& skeleton);
+
+}  // namespace vitruvia
