@@ -2,11 +2,13 @@
 //
 //   sequence.json        format, version, camera, depth_unit_m, fps, frames, joints, provenance
 //   depth/000000.png     16-bit, × depth_unit_m metres along z, 0 = no measurement
-//   mask/000000.png      optional, 8-bit: 0 = background
+//   mask/000000.png      optional, 8-bit: 0 = background; all frames have one or none has
 //   truth/joints.json    per frame and joint: position (camera frame, metres), visible flag
 //   truth/mesh.ply       triangles and rest pose (subject frame) of the true surface
 //   truth/vertices.bin   float32 [frames][vertices][3], camera frame, metres, little-endian
 //   subject/             what a tracker may know (see body/body_model.h)
+//
+// FORMAT.md beside this file tells users how to bring their own data.
 #pragma once
 
 #include <filesystem>
@@ -49,11 +51,16 @@ class SequenceReader {
   DepthImage ReadDepth(int frame) const;  // mask applied where there is one
   const JointTruth& true_joints(int frame) const;
   std::vector<Vector3f> ReadTrueVertices(int frame) const;
-  std::string hash() const;  // of every file's content, 16 hex digits
+  // Of every file's name and content, in sorted order, 16 hex digits. The provenance is left out:
+  // the same data made again by another build has the same hash.
+  std::string hash() const;
 
  private:
+  void RequireFrame(int frame) const;
+
   std::filesystem::path folder_;
   SequenceInfo info_;
+  bool has_masks_ = false;
   BodyModel subject_;
   TriangleMesh true_rest_mesh_;
   std::vector<JointTruth> true_joints_;
@@ -67,8 +74,11 @@ class SequenceWriter {
                  const TriangleMesh& true_rest_mesh);
   ~SequenceWriter();
 
+  // Sizes must be those of the camera, the mesh and info.joints; values must be finite.
   void Append(const DepthImage& depth, const std::vector<Vector3f>& true_vertices,
               const JointTruth& joints);
+  // Adds what only came to light on the way to the provenance.
+  void Note(const std::string& key, nlohmann::json value);
   void Finish();  // throws std::logic_error unless exactly info.frames frames were appended
 
  private:

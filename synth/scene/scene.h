@@ -1,7 +1,9 @@
 // A scene: who moves how before which camera, and how the truth differs from the tracker's model.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <string>
 
 #include "core/settings.h"
 #include "geometry/camera.h"
@@ -27,7 +29,11 @@ struct ViewSettings {
   std::array<double, 3> look_at_m{0.0, 0.95, 0.0};
 
   void Describe(Fields& fields);
+  std::string Problem() const;
 };
+
+// The upright camera (no roll) that looks from position_m at look_at_m.
+Rigidd CameraFromSubject(const ViewSettings& view);
 
 struct SceneSettings {
   std::string title;
@@ -42,9 +48,11 @@ struct SceneSettings {
   int seed = 1;
 
   void Describe(Fields& fields);
+  std::string Problem() const;
 };
 
 // Renders the scene and writes the sequence (sequence/sequence.h). Same settings: same bytes.
+// ConfigError if the body comes too near to the camera or too far from it to be rendered.
 void SynthesizeSequence(const SceneSettings& settings, const std::filesystem::path& folder);
 
 }  // namespace vitruvia

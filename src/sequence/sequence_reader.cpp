@@ -1,0 +1,160 @@
+#include <algorithm>
+#include <bit>
+#include <fstream>
+#include <set>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/hash.h"
+#include "core/progress.h"
+#include "geometry/depth_png.h"
+#include "geometry/mask_png.h"
+#include "geometry/mesh_io.h"
+#include "sequence/sequence_files.h"
+
+namespace vitruvia {
+namespace fs = std::filesystem;
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "vertices.bin is little-endian");
+static_assert(sizeof(Vector3f) == 3 * sizeof(float));
+
+// A frame missing in the middle and one too many at the end are both the mark of a sequence that
+// was put together wrongly; a folder must hold exactly the frames that the header promises.
+void CheckFrameFiles(const fs::path& folder, int frames) {
+  for (int i = 0; i < frames; ++i) {
+    const fs::path file = folder / SequenceFiles::FrameName(i);
+    if (!fs::is_regular_file(file)) {
+      throw DataError(fmt::format("{}: frame {} is missing; sequence.json promises {} frames",
+                                  file.string(), i, frames));
+    }
+  }
+  std::set<std::string> surplus;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    surplus.insert(entry.path().filename().string());
+  }
+  for (int i = 0; i < frames; ++i) surplus.erase(SequenceFiles::FrameName(i));
+  if (!surplus.empty()) {
+    throw DataError(fmt::format("{}: not part of the {} frames that sequence.json promises",
+                                (folder / *surplus.begin()).string(), frames));
+  }
+}
+
+std::size_t FrameBytes(const TriangleMesh& mesh) { return mesh.vertices.size() * sizeof(Vector3f); }
+
+void CheckVerticesSize(const fs::path& file, int frames, const TriangleMesh& mesh) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (error) throw DataError(fmt::format("{}: cannot be opened for reading", file.string()));
+  const std::uintmax_t expected = FrameBytes(mesh) * static_cast<std::uintmax_t>(frames);
+  if (size != expected) {
+    throw DataError(
+        fmt::format("{}: expected {} bytes ({} frames × {} vertices of mesh.ply × 12), got {}",
+                    file.string(), expected, frames, mesh.vertices.size(), size));
+  }
+}
+
+void ApplyMask(const MaskImage& mask, DepthImage& depth) {
+  for (std::size_t i = 0; i < mask.pixels().size(); ++i) {
+    if (mask.pixels()[i] == 0) depth.pixels()[i] = 0.0f;
+  }
+}
+
+}  // namespace
+
+SequenceReader::SequenceReader(fs::path folder) : folder_(std::move(folder)) {
+  if (!fs::is_directory(folder_)) {
+    throw DataError(
+        fmt::format("{}: is no folder; expected the folder of a sequence", folder_.string()));
+  }
+  const SequenceFiles files{folder_};
+  info_ = ReadSequenceInfo(files.Header());
+  for (const fs::path& part : {files.DepthFolder(), files.TruthFolder(), files.Subject()}) {
+    if (!fs::is_directory(part)) {
+      throw DataError(fmt::format("{}: folder is missing", part.string()));
+    }
+  }
+  CheckFrameFiles(files.DepthFolder(), info_.frames);
+  has_masks_ = fs::exists(files.MaskFolder());
+  if (has_masks_) CheckFrameFiles(files.MaskFolder(), info_.frames);
+  true_joints_ = ReadJointTruth(files.Joints(), info_);
+  true_rest_mesh_ = ReadMesh(files.Mesh());
+  CheckVerticesSize(files.Vertices(), info_.frames, true_rest_mesh_);
+  subject_ = ReadBodyModel(files.Subject());
+  CheckBodyModel(subject_, files.Subject().string());
+}
+
+void SequenceReader::RequireFrame(int frame) const {
+  Require(frame >= 0 && frame < info_.frames, "SequenceReader: frame {} of {}", frame,
+          info_.frames);
+}
+
+DepthImage SequenceReader::ReadDepth(int frame) const {
+  RequireFrame(frame);
+  const SequenceFiles files{folder_};
+  const PinholeCamera& camera = info_.camera;
+  DepthImage depth =
+      ReadDepthPng(files.Depth(frame), info_.depth_unit_m, camera.width, camera.height);
+  if (has_masks_) ApplyMask(ReadMaskPng(files.Mask(frame), camera.width, camera.height), depth);
+  return depth;
+}
+
+const JointTruth& SequenceReader::true_joints(int frame) const {
+  RequireFrame(frame);
+  return true_joints_[static_cast<std::size_t>(frame)];
+}
+
+std::vector<Vector3f> SequenceReader::ReadTrueVertices(int frame) const {
+  RequireFrame(frame);
+  const fs::path file = SequenceFiles{folder_}.Vertices();
+  std::vector<Vector3f> vertices(true_rest_mesh_.vertices.size());
+  const auto bytes = static_cast<std::streamsize>(FrameBytes(true_rest_mesh_));
+  std::ifstream stream(file, std::ios::binary);
+  stream.seekg(static_cast<std::streamoff>(frame) * bytes);
+  stream.read(reinterpret_cast<char*>(vertices.data()), bytes);
+  if (!stream || stream.gcount() != bytes) {
+    throw DataError(fmt::format("{}: cut short in frame {}", file.string(), frame));
+  }
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (!vertices[i].allFinite()) {
+      throw DataError(fmt::format("{}: frame {}, vertex {} is not finite: ({}, {}, {})",
+                                  file.string(), frame, i, vertices[i].x(), vertices[i].y(),
+                                  vertices[i].z()));
+    }
+  }
+  return vertices;
+}
+
+std::string SequenceReader::hash() const {
+  std::set<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+    if (entry.is_regular_file()) {
+      names.insert(entry.path().lexically_relative(folder_).generic_string());
+    }
+  }
+  const std::string header = SequenceFiles{fs::path()}.Header().generic_string();
+  Hash64 hash;
+  for (const std::string& name : names) {
+    hash.Add(name);
+    if (name == header) {
+      SequenceInfo info = info_;
+      info.provenance = Json::object();
+      hash.Add(SequenceInfoJson(info).dump());
+    } else {
+      hash.AddFile(folder_ / name);
+    }
+  }
+  return hash.Hex();
+}
+
+void VerifySequence(const fs::path& folder) {
+  const SequenceReader reader(folder);
+  Progress progress("verify " + folder.string(), reader.info().frames);
+  for (int frame = 0; frame < reader.info().frames; ++frame) {
+    reader.ReadDepth(frame);
+    reader.ReadTrueVertices(frame);
+    progress.Advance();
+  }
+}
+
+}  // namespace vitruvia

@@ -1,0 +1,176 @@
+#include "synth/scene/recording.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "core/build_info.h"
+#include "core/error.h"
+#include "core/json_settings.h"
+#include "core/progress.h"
+#include "sequence/sequence.h"
+#include "synth/render/depth_renderer.h"
+
+namespace vitruvia {
+namespace {
+
+constexpr double kNearM = 0.2, kFarM = 12.0;  // of the renderer; the body must stay between them
+
+// Counts the frames in which some of the body is out of view.
+class ViewWatch {
+ public:
+  explicit ViewWatch(const PinholeCamera& camera) : camera_(camera) {}
+
+  void Look(const std::vector<Vector3f>& vertices_in_camera, int frame) {
+    const bool all_in_view =
+        std::all_of(vertices_in_camera.begin(), vertices_in_camera.end(), [this](const auto& p) {
+          const Eigen::Vector2f pixel = camera_.Project(p);
+          return pixel.x() >= -0.5f && pixel.x() <= static_cast<float>(camera_.width) - 0.5f &&
+                 pixel.y() >= -0.5f && pixel.y() <= static_cast<float>(camera_.height) - 0.5f;
+        });
+    if (all_in_view) return;
+    if (frames_ == 0) first_ = frame;
+    ++frames_;
+  }
+
+  // "" if the body never left.
+  std::string Warning(int frame_count) const {
+    if (frames_ == 0) return "";
+    return fmt::format("the body leaves the image in {} of {} frames, first in frame {}", frames_,
+                       frame_count, first_);
+  }
+
+ private:
+  PinholeCamera camera_;
+  int frames_ = 0, first_ = 0;
+};
+
+// Where the generator and a tracker's model differ: a score says little without it.
+std::vector<std::string> Differences(const SceneSettings& s, const BodyModel& truth,
+                                     const BodyModel& subject) {
+  std::vector<std::string> differences;
+  if (s.truth.skinning == Skinning::kDualQuaternion) {
+    differences.push_back("the truth is skinned with dual quaternions");
+  }
+  if (truth.rest.vertices.size() != subject.rest.vertices.size()) {
+    differences.push_back(fmt::format("the true mesh has {} vertices, the template {}",
+                                      truth.rest.vertices.size(), subject.rest.vertices.size()));
+  }
+  if (s.truth.refinement.weight_diffusion != s.subject.weight_diffusion) {
+    differences.push_back(
+        fmt::format("skinning weights diffused over {} steps in the truth, {} in the template",
+                    s.truth.refinement.weight_diffusion, s.subject.weight_diffusion));
+  }
+  if (s.sensor.model == SensorModel::kGaussian) {
+    differences.push_back(fmt::format("depth noise of {:g} m and dropout of {:g}", s.sensor.sigma_m,
+                                      s.sensor.dropout));
+  }
+  return differences;
+}
+
+SequenceInfo Info(const SceneSettings& settings, const BodyModel& truth, const BodyModel& subject) {
+  SequenceInfo info;
+  info.camera = settings.view.camera;
+  info.depth_unit_m = settings.sensor.depth_unit_m;
+  info.fps = settings.fps;
+  info.frames = settings.frames;
+  for (const BoneInfo& bone : Bones()) info.joints.emplace_back(bone.joint);
+  info.provenance = {{"made_by", "vitruvia synth"},
+                     {"scene", WriteSettings(settings)},
+                     {"truth_differs_from_template", Differences(settings, truth, subject)},
+                     {"build", Provenance()}};
+  return info;
+}
+
+// The depth range is the renderer's: beyond it the surface would be cut open without a word.
+void RequireInRange(const std::vector<Vector3f>& vertices_in_camera, int frame) {
+  for (const Vector3f& p : vertices_in_camera) {
+    if (p.z() >= kNearM && p.z() <= kFarM) continue;
+    throw ConfigError(fmt::format(
+        "view.position_m: in frame {} a part of the body is {:.2f} m in front of the camera; "
+        "expected {:g} … {:g} m",
+        frame, p.z(), kNearM, kFarM));
+  }
+}
+
+void Warn(const std::string& warning) {
+  if (!warning.empty()) fmt::print(stderr, "warning: {}\n", warning);
+}
+
+}  // namespace
+
+PosedBody Pose(const BodyModel& body, const MotionSample& sample, Skinning skinning,
+               const Rigidd& camera_from_subject) {
+  const BoneTransforms bones = ForwardKinematics(body.skeleton, sample.pose);
+  PosedBody posed;
+  if (skinning == Skinning::kLinear) {
+    SkinLinear(body.rest.vertices, body.weights, bones, posed.vertices);
+  } else {
+    SkinDualQuaternion(body.rest.vertices, body.weights, bones, posed.vertices);
+  }
+  posed.joints = PosedJoints(body.skeleton, bones);
+
+  double lift = 0.0;
+  if (sample.grounded) {
+    float lowest = std::numeric_limits<float>::infinity();
+    for (const Vector3f& p : posed.vertices) lowest = std::min(lowest, p.y());
+    lift = sample.clearance_m - lowest;
+  }
+  const Rigidd camera_from_posed =
+      camera_from_subject * Rigidd{Matrix3<double>::Identity(), {0.0, lift, 0.0}};
+  for (Vector3f& p : posed.vertices) {
+    p = (camera_from_posed * p.cast<double>().eval()).cast<float>();
+  }
+  for (Vector3d& p : posed.joints) p = camera_from_posed * p;
+  return posed;
+}
+
+std::vector<bool> VisibleJoints(const std::vector<Vector3d>& joints_in_camera,
+                                const DepthImage& depth, const PinholeCamera& camera) {
+  std::vector<bool> visible;
+  for (const Vector3d& joint : joints_in_camera) {
+    bool seen = false;
+    if (joint.z() > 0.0) {
+      const Eigen::Vector2d pixel = camera.Project(joint);
+      // Rounded as numbers first: far outside the image they do not fit an int.
+      const double u = std::round(pixel.x()), v = std::round(pixel.y());
+      if (u >= 0.0 && v >= 0.0 && u < camera.width && v < camera.height) {
+        const float skin = depth(static_cast<int>(u), static_cast<int>(v));
+        seen = skin == 0.0f || joint.z() - skin <= kJointBelowSkinM;
+      }
+    }
+    visible.push_back(seen);
+  }
+  return visible;
+}
+
+void RecordSequence(const SceneSettings& settings, const BodyModel& truth, const BodyModel& subject,
+                    const Motion& motion, const std::filesystem::path& folder) {
+  const PinholeCamera& camera = settings.view.camera;
+  const Rigidd camera_from_subject = CameraFromSubject(settings.view);
+  SequenceWriter writer(folder, Info(settings, truth, subject), subject, truth.rest);
+  DepthRenderer renderer(camera, kNearM, kFarM);
+  ViewWatch watch(camera);
+  {
+    Progress progress("synth " + folder.filename().string(), settings.frames);
+    for (int frame = 0; frame < settings.frames; ++frame) {
+      const MotionSample sample = motion.At(frame / settings.fps);
+      const PosedBody posed = Pose(truth, sample, settings.truth.skinning, camera_from_subject);
+      RequireInRange(posed.vertices, frame);
+      watch.Look(posed.vertices, frame);
+      const DepthImage true_depth = renderer.Render(posed.vertices, truth.rest.triangles);
+      RandomStream noise(static_cast<std::uint64_t>(settings.seed),
+                         fmt::format("sensor/{}", frame));
+      writer.Append(Measure(true_depth, settings.sensor, noise), posed.vertices,
+                    {posed.joints, VisibleJoints(posed.joints, true_depth, camera)});
+      progress.Advance();
+    }
+  }
+  const std::string warning = watch.Warning(settings.frames);
+  Warn(warning);
+  if (!warning.empty()) writer.Note("warnings", Json::array({warning}));
+  writer.Finish();
+}
+
+}  // namespace vitruvia

@@ -1,0 +1,33 @@
+// The recording of a scene whose bodies and motion are already there.
+#pragma once
+
+#include <filesystem>
+
+#include "synth/scene/scene.h"
+
+namespace vitruvia {
+
+// Moves `truth`, renders and measures it as `settings` say, and writes the sequence. `subject` is
+// the template that goes with it. Settings of the body, the motion and the refinements are only
+// noted in the provenance.
+void RecordSequence(const SceneSettings& settings, const BodyModel& truth, const BodyModel& subject,
+                    const Motion& motion, const std::filesystem::path& folder);
+
+// The body's surface and joints in the camera frame.
+struct PosedBody {
+  std::vector<Vector3f> vertices;
+  std::vector<Vector3<double>> joints;
+};
+PosedBody Pose(const BodyModel& body, const MotionSample& sample, Skinning skinning,
+               const Rigidd& camera_from_subject);
+
+// A joint sits inside the body. Skin up to this much nearer to the camera than the joint counts as
+// the joint's own; anything nearer than that hides it. About the half thickness of a torso.
+inline constexpr double kJointBelowSkinM = 0.15;
+
+// For each joint whether the camera sees it: it projects into the image, and the depth rendered
+// there is at most kJointBelowSkinM in front of it.
+std::vector<bool> VisibleJoints(const std::vector<Vector3<double>>& joints_in_camera,
+                                const DepthImage& depth, const PinholeCamera& camera);
+
+}  // namespace vitruvia
