@@ -1,0 +1,30 @@
+// Term 1, goodness of fit: |V1| + 3 (|V2| + |P2|) rows (paper A, eq. 7 and sec. 6.2).
+#pragma once
+
+#include "matching/classification.h"
+#include "methods/realtime_scape/model.h"
+#include "methods/realtime_scape/settings.h"
+#include "solver/block_normal_equations.h"
+
+namespace vitruvia::realtime_scape {
+
+// What the data ask of the model in one iteration, with frozen correspondences.
+struct FitData {
+  VertexClasses classes;    // V1 with its observed depths, V2
+  std::vector<Pair> pairs;  // of V2 and P2
+};
+
+// The posed surface in one iteration (camera frame).
+struct PosedSurface {
+  std::vector<Vector3f> vertices;
+  BoneTransforms camera_from_rest;
+};
+
+// Adds the rows of both kinds to the normal equations: unknowns are per bone (r, t), a rotation
+// exp(r) applied on the left about the bone's centre and a translation of the centre in length
+// units. Lengths are divided by length_unit_m. Returns the energy that it added.
+double AddFitTerm(const Model& model, const BodyPose& pose, const PosedSurface& surface,
+                  const PinholeCamera& camera, const FitData& data, const FitSettings& settings,
+                  double length_unit_m, BlockNormalEquations& equations);
+
+}  // namespace vitruvia::realtime_scape

@@ -1,0 +1,37 @@
+// Term 2, joints stay connected (paper A, eq. 7; Chang & Zwicker 2009).
+#pragma once
+
+#include <vector>
+
+#include "methods/realtime_scape/model.h"
+#include "solver/block_normal_equations.h"
+
+namespace vitruvia::realtime_scape {
+
+// For neighbouring bones j and l: Σ_i w_ij w_il / τ_jl ‖(R_j v̄_i + T_j) − (R_l v̄_i + T_l)‖².
+//
+// The sum over a joint's vertices is a quadratic in (R, T) whose 4×4 moment Σ_i w_ij w_il ṽ_i ṽ_iᵀ
+// is a constant of the rest pose. Its eigenvectors are four virtual points (x, h) that carry
+// exactly the same energy, so the exact term costs four vertices instead of hundreds.
+//
+// Readings: τ_jl = Σ_i w_ij w_il over vertices (the paper prints a sum over bones), so each joint's
+// weights sum to 1; each joint counts once; joints are the edges of the bone tree. An edge whose
+// bones share no vertex is held at its joint position.
+class JointTerm {
+ public:
+  explicit JointTerm(const Model& model);
+
+  // Adds α₁ times the term, lengths in length units (see fit_term.h). Returns the energy added.
+  double Add(const Model& model, const BodyPose& pose, double weight, double length_unit_m,
+             BlockNormalEquations& equations) const;
+
+ private:
+  struct VirtualPoint {
+    int bone, parent;
+    Vector3d x;  // Σ of rest positions, scaled by the square root of the eigenvalue
+    double h;    // homogeneous coordinate, scaled likewise
+  };
+  std::vector<VirtualPoint> points_;
+};
+
+}  // namespace vitruvia::realtime_scape

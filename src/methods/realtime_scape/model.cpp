@@ -1,0 +1,42 @@
+#include "methods/realtime_scape/model.h"
+
+namespace vitruvia::realtime_scape {
+
+Model::Model(const BodyModel& subject)
+    : rest_vertices(subject.rest.vertices),
+      triangles(subject.rest.triangles),
+      weights(subject.weights),
+      skeleton(subject.skeleton) {
+  ComputeVertexNormals(rest_vertices, triangles, rest_normals);
+
+  std::array<double, kBoneCount> mass{};
+  rest_centers.fill(Vector3<double>::Zero());
+  first_influence.push_back(0);
+  for (std::size_t i = 0; i < rest_vertices.size(); ++i) {
+    for (int k = 0; k < kMaxInfluences; ++k) {
+      const float weight = weights.weights[i][k];
+      if (weight <= 0.0f) continue;
+      const int bone = weights.bones[i][k];
+      influences.push_back({bone, weight});
+      mass[bone] += weight;
+      rest_centers[bone] += weight * rest_vertices[i].cast<double>();
+    }
+    first_influence.push_back(static_cast<int>(influences.size()));
+  }
+  // A bone without vertices has no surface to be about; its joint will do.
+  for (int j = 0; j < kBoneCount; ++j) {
+    rest_centers[j] =
+        mass[j] > 0.0 ? Vector3<double>(rest_centers[j] / mass[j]) : skeleton.joints[j];
+  }
+}
+
+BoneTransforms ToTransforms(const Model& model, const BodyPose& pose) {
+  BoneTransforms camera_from_rest(kBoneCount);
+  for (int j = 0; j < kBoneCount; ++j) {
+    camera_from_rest[j] = {pose[j].rotation,
+                           pose[j].center - pose[j].rotation * model.rest_centers[j]};
+  }
+  return camera_from_rest;
+}
+
+}  // namespace vitruvia::realtime_scape

@@ -1,0 +1,95 @@
+#include "methods/realtime_scape/placement.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <Eigen/SVD>
+
+#include "geometry/kd_tree.h"
+#include "matching/visibility.h"
+
+namespace vitruvia::realtime_scape {
+namespace {
+
+struct Match {
+  Vector3d rest;      // subject frame
+  Vector3d observed;  // camera frame
+  float squared_distance;
+};
+
+Vector3d Mean(const std::vector<Vector3f>& points) {
+  Vector3d sum = Vector3d::Zero();
+  for (const Vector3f& p : points) sum += p.cast<double>();
+  return sum / static_cast<double>(points.size());
+}
+
+// The rigid motion that carries rest onto observed with least squares (Kabsch 1976).
+Rigidd RigidFit(const std::vector<Match>& matches) {
+  Vector3d rest_mean = Vector3d::Zero(), observed_mean = Vector3d::Zero();
+  for (const Match& m : matches) {
+    rest_mean += m.rest;
+    observed_mean += m.observed;
+  }
+  rest_mean /= static_cast<double>(matches.size());
+  observed_mean /= static_cast<double>(matches.size());
+  Matrix3<double> covariance = Matrix3<double>::Zero();
+  for (const Match& m : matches)
+    covariance += (m.observed - observed_mean) * (m.rest - rest_mean).transpose();
+  const Matrix3<double> rotation = NearestRotation(covariance);
+  return {rotation, observed_mean - rotation * rest_mean};
+}
+
+std::vector<Vector3f> Transformed(const std::vector<Vector3f>& points, const Rigidf& b_from_a) {
+  std::vector<Vector3f> result(points.size());
+  std::transform(points.begin(), points.end(), result.begin(),
+                 [&](const Vector3f& p) { return b_from_a * p; });
+  return result;
+}
+
+void KeepBest(double share, std::vector<Match>& matches) {
+  const auto keep = static_cast<std::ptrdiff_t>(share * static_cast<double>(matches.size()));
+  if (keep < 3) return;
+  std::nth_element(
+      matches.begin(), matches.begin() + keep, matches.end(),
+      [](const Match& a, const Match& b) { return a.squared_distance < b.squared_distance; });
+  matches.resize(keep);
+}
+
+}  // namespace
+
+Rigidd PlaceRestPose(const Model& model, const PointCloud& cloud, const PinholeCamera& camera,
+                     const FitSettings& fit, const PlacementSettings& settings, ZBuffer& zbuffer) {
+  // Facing the camera: the subject's up is the image's up, its front looks back along the view.
+  Rigidd camera_from_subject;
+  camera_from_subject.rotation = Vector3d(1.0, -1.0, -1.0).asDiagonal();
+  camera_from_subject.translation =
+      Mean(cloud.points) - camera_from_subject.rotation * Mean(model.rest_vertices);
+
+  KdTree tree;
+  std::vector<int> visible;
+  std::vector<KdTree::Neighbor> neighbors;
+  std::vector<Match> matches;
+  for (int i = 0; i < settings.iterations; ++i) {
+    const std::vector<Vector3f> posed =
+        Transformed(model.rest_vertices, camera_from_subject.Cast<float>());
+    FindVisibleVertices(posed, zbuffer.Render(posed, model.triangles), camera,
+                        static_cast<float>(fit.visible_within_m), visible);
+    std::vector<Vector3f> visible_positions;
+    for (const int v : visible) visible_positions.push_back(posed[v]);
+    if (visible.size() < 3) break;
+    tree.Build(visible_positions);
+    tree.FindNearest(cloud.points, std::numeric_limits<float>::infinity(), neighbors);
+    matches.clear();
+    for (std::size_t k = 0; k < neighbors.size(); ++k) {
+      if (neighbors[k].index < 0) continue;
+      matches.push_back({model.rest_vertices[visible[neighbors[k].index]].cast<double>(),
+                         cloud.points[k].cast<double>(), neighbors[k].squared_distance});
+    }
+    KeepBest(1.0 - settings.trim, matches);
+    if (matches.size() < 3) break;
+    camera_from_subject = RigidFit(matches);
+  }
+  return camera_from_subject;
+}
+
+}  // namespace vitruvia::realtime_scape

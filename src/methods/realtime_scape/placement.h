@@ -1,0 +1,17 @@
+// Puts the rest pose onto the first frame.
+#pragma once
+
+#include "geometry/zbuffer.h"
+#include "matching/point_cloud.h"
+#include "methods/realtime_scape/model.h"
+#include "methods/realtime_scape/settings.h"
+
+namespace vitruvia::realtime_scape {
+
+// camera_from_subject of a body that stands in the rest pose, upright and facing the camera:
+// centroid on centroid, then trimmed rigid closest-point iterations of the cloud against the
+// visible vertices.
+Rigidd PlaceRestPose(const Model& model, const PointCloud& cloud, const PinholeCamera& camera,
+                     const FitSettings& fit, const PlacementSettings& settings, ZBuffer& zbuffer);
+
+}  // namespace vitruvia::realtime_scape

@@ -1,0 +1,49 @@
+// Realtime SCAPE (paper A, algorithm 1): LBS pose of 17 bones by linearised least squares.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "geometry/zbuffer.h"
+#include "methods/realtime_scape/fit_term.h"
+#include "methods/realtime_scape/inertia_term.h"
+#include "methods/realtime_scape/joint_term.h"
+#include "methods/realtime_scape/settings.h"
+#include "solver/conjugate_gradients.h"
+#include "tracking/tracker.h"
+
+namespace vitruvia::realtime_scape {
+
+class RealtimeScape final : public Tracker {
+ public:
+  explicit RealtimeScape(const Settings& settings);
+  ~RealtimeScape() override;
+
+  void Start(const Subject& subject, const PinholeCamera& camera) override;
+  TrackResult TrackFrame(const DepthFrame& frame) override;
+
+ private:
+  // Everything that depends on the subject and the camera.
+  struct Session;
+  // Largest step of any bone in one iteration.
+  struct Step {
+    double rotation_rad = 0.0, translation_m = 0.0;
+  };
+
+  void BeginFrame(const DepthFrame& frame);
+  void PoseSurface();
+  void Render();
+  void BuildVisibleTree();
+  void Classify(const DepthFrame& frame);
+  void FindPairs();
+  void Assemble();
+  void Solve();
+  Step Update();
+  bool IsSmall(const Step& step) const;
+  TrackResult Result(bool stopped_small, int iterations);
+
+  Settings settings_;
+  std::unique_ptr<Session> session_;
+};
+
+}  // namespace vitruvia::realtime_scape

@@ -1,0 +1,84 @@
+#include "methods/registry.h"
+
+#include <functional>
+
+#include "core/error.h"
+#include "methods/realtime_scape/realtime_scape.h"
+
+namespace vitruvia {
+namespace {
+
+struct Entry {
+  MethodInfo info;
+  std::function<Json(const Json&, const JsonOrigin&)> resolve;
+  std::function<std::unique_ptr<Tracker>(const Json&)> make;
+};
+
+template <class Method, class Settings>
+Entry MakeEntry(const char* name, const char* description) {
+  return {
+      {name, description, Describe<Settings>(std::string(name))},
+      [](const Json& json, const JsonOrigin& origin) {
+        return WriteSettings(ReadSettings<Settings>(json, origin));
+      },
+      [](const Json& json) {
+        return std::make_unique<Method>(ReadSettings<Settings>(json, {"resolved settings", ""}));
+      }};
+}
+
+const std::vector<Entry>& Entries() {
+  static const std::vector<Entry> entries = {
+      MakeEntry<realtime_scape::RealtimeScape, realtime_scape::Settings>(
+          "realtime_scape",
+          "paper A: LBS body of 17 bones, four-term energy, conjugate gradients")};
+  return entries;
+}
+
+// The frame of a method file; its settings are read by the method they belong to.
+struct MethodFile {
+  std::string method;
+  Json settings = Json::object();
+
+  void Describe(Fields& f) {
+    f.Text("method", method,
+           {.meaning = "name of a tracking method (vitruvia list)", .required = true});
+    f.FreeJson("settings", settings,
+               {.meaning = "the method's settings (vitruvia explain METHOD)"});
+  }
+};
+
+const Entry& FindEntry(const std::string& name, const std::string& where) {
+  std::vector<std::string> names;
+  for (const Entry& entry : Entries()) {
+    if (entry.info.name == name) return entry;
+    names.push_back(entry.info.name);
+  }
+  const std::string nearest = NearestWord(name, names);
+  throw ConfigError(
+      fmt::format("{}: method: unknown method \"{}\"; {}known: {}", where, name,
+                  nearest.empty() ? "" : fmt::format("did you mean \"{}\"? ", nearest),
+                  fmt::join(names, ", ")));
+}
+
+}  // namespace
+
+const std::vector<MethodInfo>& Methods() {
+  static const std::vector<MethodInfo> infos = [] {
+    std::vector<MethodInfo> list;
+    for (const Entry& entry : Entries()) list.push_back(entry.info);
+    return list;
+  }();
+  return infos;
+}
+
+MethodConfig ReadMethodConfig(const Json& json, const JsonOrigin& origin) {
+  const auto file = ReadSettings<MethodFile>(json, origin);
+  const Entry& entry = FindEntry(file.method, origin.file.string());
+  return {file.method, entry.resolve(file.settings, {origin.file, "settings"})};
+}
+
+std::unique_ptr<Tracker> MakeTracker(const MethodConfig& config) {
+  return FindEntry(config.method, "resolved settings").make(config.settings);
+}
+
+}  // namespace vitruvia
