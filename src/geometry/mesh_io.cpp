@@ -34,6 +34,9 @@ class Importer : public OpenMesh::IO::ImporterT<OpenMeshMesh> {
     return add_vertex(OpenMesh::Vec3f(p));
   }
   OpenMesh::VertexHandle add_vertex() override { return add_vertex(OpenMesh::Vec3f(0, 0, 0)); }
+  void set_point(OpenMesh::VertexHandle v, const OpenMesh::Vec3f& p) override {
+    mesh.vertices.at(v.idx()) = {p[0], p[1], p[2]};
+  }
   OpenMesh::FaceHandle add_face(const VHandles& corners) override {
     if (corners.size() == 3) {
       mesh.triangles.push_back({corners[0].idx(), corners[1].idx(), corners[2].idx()});
@@ -164,6 +167,17 @@ std::string ContentProblem(const TriangleMesh& mesh) {
   return "";
 }
 
+// What an OBJ file holds, as its reader says nothing of lines that it does not understand.
+void CountObjElements(const std::string& content, Importer& importer) {
+  std::istringstream lines(content);
+  for (std::string line; std::getline(lines, line);) {
+    std::string keyword;
+    std::istringstream(line) >> keyword;
+    if (keyword == "v") ++importer.announced_vertices;
+    if (keyword == "f") ++importer.announced_faces;
+  }
+}
+
 }  // namespace
 
 TriangleMesh ReadMesh(const std::filesystem::path& file) {
@@ -173,6 +187,9 @@ TriangleMesh ReadMesh(const std::filesystem::path& file) {
     throw DataError(fmt::format("{}: {}", file.string(), reason));
   };
   std::istringstream stream(content);
+  // OBJ has neither counts nor an end mark: its reader stops where reading fails. The others must
+  // not get that far, and the PLY reader would search a header cut short for ever.
+  if (format != MeshFormat::kObj) stream.exceptions(std::ios::failbit | std::ios::badbit);
   OpenMeshMesh unused;
   Importer importer(unused);
   OpenMesh::IO::Options options;
@@ -180,14 +197,15 @@ TriangleMesh ReadMesh(const std::filesystem::path& file) {
   bool success = false;
   try {
     success = OpenMesh::IO::IOManager().read(stream, Extension(format), importer, options);
+  } catch (const std::ios::failure&) {
+    refuse("cut short, or has something else where a number should be");
   } catch (const std::exception& error) {
     refuse(fmt::format("damaged: {}", error.what()));
   }
   if (!success) refuse(fmt::format("is no readable mesh file: {}", messages.FirstLine()));
-  // OBJ has neither counts nor an end mark: its reader always runs into the end.
-  if (format != MeshFormat::kObj &&
-      (stream.fail() || importer.mesh.vertices.size() < importer.announced_vertices ||
-       importer.face_count < importer.announced_faces)) {
+  if (format == MeshFormat::kObj) CountObjElements(content, importer);
+  if (importer.mesh.vertices.size() != importer.announced_vertices ||
+      importer.face_count != importer.announced_faces) {
     refuse(fmt::format("cut short or damaged: {} vertices and {} faces announced, {} and {} read",
                        importer.announced_vertices, importer.announced_faces,
                        importer.mesh.vertices.size(), importer.face_count));
