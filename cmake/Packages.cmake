@@ -13,6 +13,8 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
 pkg_check_modules(FLANN REQUIRED IMPORTED_TARGET flann)
+pkg_check_modules(OPENMESH REQUIRED openmesh)
+set(OpenMesh_VERSION ${OPENMESH_VERSION})  # its CMake config does not say; run records do
 
 # Third-party headers are not ours to warn about.
 foreach(target nlohmann_json::nlohmann_json fmt::fmt Eigen3::Eigen PkgConfig::OSMESA PkgConfig::FLANN)

@@ -56,16 +56,28 @@ void MakeFolder(const fs::path& folder) {
   }
 }
 
-StagedFolder::StagedFolder(fs::path destination) : destination_(std::move(destination)) {
+StagedFolder::StagedFolder(fs::path destination, const std::string& mark)
+    : destination_(std::move(destination)) {
   if (!destination_.has_filename()) destination_ = destination_.parent_path();
-  if (destination_.has_parent_path()) MakeFolder(destination_.parent_path());
-  if (fs::exists(destination_) && !fs::is_directory(destination_)) {
+  const fs::path name = destination_.filename();
+  if (name.empty() || name == "." || name == "..") {
+    throw RunError(fmt::format("{}: is no folder to write to; name a new one below it",
+                               destination_.string()));
+  }
+  std::error_code error;
+  const fs::file_status status = fs::status(destination_, error);
+  if (fs::exists(status) && !fs::is_directory(status)) {
     throw RunError(
         fmt::format("{}: is a file; expected a folder to write to", destination_.string()));
   }
+  if (fs::is_directory(status) && !fs::is_empty(destination_, error) &&
+      !fs::exists(destination_ / mark, error)) {
+    throw RunError(fmt::format("{}: holds other things (there is no {}) and is not overwritten",
+                               destination_.string(), mark));
+  }
+  if (destination_.has_parent_path()) MakeFolder(destination_.parent_path());
   staging_ = TemporaryName(destination_);
-  std::error_code ignored;
-  fs::remove_all(staging_, ignored);
+  fs::remove_all(staging_, error);
   MakeFolder(staging_);
 }
 
@@ -76,14 +88,22 @@ StagedFolder::~StagedFolder() {
 }
 
 void StagedFolder::Commit() {
+  // The old folder steps aside first and is removed last, so that either it or the new one is
+  // whole.
+  fs::path old = staging_;
+  old += ".old";
   std::error_code error;
-  fs::remove_all(destination_, error);
+  const bool replaces = fs::exists(destination_, error);
+  if (replaces) fs::rename(destination_, old, error);
   if (!error) fs::rename(staging_, destination_, error);
+  std::error_code ignored;
   if (error) {
+    if (replaces) fs::rename(old, destination_, ignored);
     throw RunError(
         fmt::format("{}: cannot be written: {}", destination_.string(), error.message()));
   }
   committed_ = true;
+  if (replaces) fs::remove_all(old, ignored);
 }
 
 }  // namespace vitruvia

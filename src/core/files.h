@@ -18,10 +18,12 @@ void WriteWholeFile(const std::filesystem::path& file, std::string_view content)
 void MakeFolder(const std::filesystem::path& folder);
 
 // A folder that is filled under a temporary name beside its destination and appears there only on
-// Commit(); an uncommitted one is removed again. An existing destination is replaced on Commit().
+// Commit(); an uncommitted one is removed again. An existing destination is replaced on Commit(),
+// but only one that is empty or holds `mark`, a file that every folder of this kind has: a mistyped
+// path must not cost anyone a folder of other things. RunError at once otherwise.
 class StagedFolder {
  public:
-  explicit StagedFolder(std::filesystem::path destination);
+  StagedFolder(std::filesystem::path destination, const std::string& mark);
   ~StagedFolder();
   StagedFolder(const StagedFolder&) = delete;
   StagedFolder& operator=(const StagedFolder&) = delete;

@@ -17,7 +17,9 @@ Hash64& Hash64::Add(const void* data, std::size_t bytes) {
 
 Hash64& Hash64::AddFile(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw DataError(fmt::format("{}: cannot be opened", file.string()));
+  if (!stream || std::filesystem::is_directory(file)) {  // a folder opens, but holds no bytes
+    throw DataError(fmt::format("{}: cannot be opened for reading", file.string()));
+  }
   std::array<char, 65536> buffer;
   while (stream.read(buffer.data(), buffer.size()) || stream.gcount() > 0) {
     Add(buffer.data(), static_cast<std::size_t>(stream.gcount()));

@@ -20,7 +20,8 @@ std::uint64_t RandomStream::NextBits() {
 }
 
 double RandomStream::Uniform(double low, double high) {
-  return low + (high - low) * static_cast<double>(NextBits() >> 11) * 0x1.0p-53;
+  const double value = low + (high - low) * static_cast<double>(NextBits() >> 11) * 0x1.0p-53;
+  return value < high ? value : std::nextafter(high, low);  // the sum may round up to the end
 }
 
 // Box and Muller 1958; the second number of a pair is kept for the next call.

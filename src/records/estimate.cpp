@@ -98,7 +98,7 @@ std::size_t BytesPerFrame(const TriangleMesh& mesh) {
 
 struct EstimateWriter::State {
   State(fs::path destination, const TriangleMesh& rest_mesh)
-      : folder(std::move(destination)),
+      : folder(std::move(destination), kIndexFile),
         vertex_count(rest_mesh.vertices.size()),
         vertices(folder.path() / kVerticesFile, std::ios::binary) {
     WriteMesh(folder.path() / kMeshFile, rest_mesh);

@@ -19,7 +19,7 @@ struct SequenceWriter::State {
   std::vector<JointTruth> joints;  // one for each frame appended
 
   State(fs::path folder, SequenceInfo info_in, std::size_t vertex_count_in)
-      : staged(std::move(folder)),
+      : staged(std::move(folder), "sequence.json"),
         files{staged.path()},
         info(std::move(info_in)),
         vertex_count(vertex_count_in) {}

@@ -1,0 +1,46 @@
+#include "core/build_info.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace vitruvia {
+namespace {
+
+using testing::HasSubstr;
+using testing::MatchesRegex;
+using testing::Not;
+using testing::StartsWith;
+
+TEST(BuildInfo, SaysWhatThisBuildIs) {
+  const BuildInfo& build = GetBuildInfo();
+  EXPECT_THAT(build.version, MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+"));
+  EXPECT_THAT(build.commit, MatchesRegex("unknown|[0-9a-f]+(-dirty)?"));
+  EXPECT_THAT(build.compiler, StartsWith("g++ 1"));
+  EXPECT_THAT(build.build_type, MatchesRegex("Release|RelWithDebInfo|Debug|MinSizeRel"));
+  EXPECT_THAT(build.flags, HasSubstr("-ffp-contract=off"));
+  EXPECT_THAT(build.build_id, MatchesRegex("[0-9a-f]+"));
+  EXPECT_EQ(build.build_id.size(), 40u);  // SHA-1
+}
+
+TEST(BuildInfo, NamesAVersionOfEveryLibrary) {
+  const std::string& libraries = GetBuildInfo().libraries;
+  for (const char* name : {"Eigen 3.", "OpenMesh ", "FLANN 1.", "OSMesa ", "Ceres 2.", "OpenCV 4.",
+                           "VTK 9.", "nlohmann_json 3."}) {
+    EXPECT_THAT(libraries, HasSubstr(name));
+  }
+  EXPECT_THAT(libraries, Not(HasSubstr(" ,")));  // a name without a version
+}
+
+TEST(Provenance, HoldsAllOfIt) {
+  const nlohmann::json provenance = Provenance();
+  for (const char* key :
+       {"version", "commit", "compiler", "build_type", "flags", "libraries", "build_id", "cpu"}) {
+    ASSERT_TRUE(provenance.contains(key)) << key;
+    EXPECT_FALSE(provenance.at(key).get<std::string>().empty()) << key;
+  }
+  EXPECT_GE(provenance.at("cpu_threads").get<int>(), 1);
+}
+
+}  // namespace
+}  // namespace vitruvia
