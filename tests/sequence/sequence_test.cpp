@@ -1,0 +1,373 @@
+#include "sequence/sequence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <unistd.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/json_settings.h"
+#include "geometry/depth_png.h"
+#include "geometry/mask_png.h"
+#include "support/tiny_body.h"
+
+namespace vitruvia {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr int kFrames = 3;
+
+SequenceInfo SmallInfo() {
+  SequenceInfo info;
+  info.camera = {16, 12, 20.5, 21.5, 7.25, 5.75};
+  info.depth_unit_m = 0.0005;
+  info.fps = 25.0;
+  info.frames = kFrames;
+  info.joints = {"neck", "left_hip"};
+  info.provenance = {{"made_by", "a test"}};
+  return info;
+}
+
+DepthImage SmallDepth(int frame) {
+  DepthImage depth(16, 12);
+  for (int v = 0; v < 12; ++v) {
+    for (int u = 0; u < 16; ++u) depth(u, v) = 0.001f * static_cast<float>(u + 16 * v + frame);
+  }
+  return depth;
+}
+
+std::vector<Vector3f> SmallVertices(const BodyModel& body, int frame) {
+  std::vector<Vector3f> vertices = body.rest.vertices;
+  for (Vector3f& p : vertices) p += Vector3f(0.1f * static_cast<float>(frame), 0.0f, 2.5f);
+  return vertices;
+}
+
+JointTruth SmallJoints(int frame) {
+  return {{{0.1 * frame, 1.0 / 3.0, 2.5}, {-0.1, 0.9, 2.4}}, {frame != 1, true}};
+}
+
+void WriteSmall(const fs::path& folder, const SequenceInfo& info = SmallInfo()) {
+  const BodyModel body = TinyBody();
+  SequenceWriter writer(folder, info, body, body.rest);
+  for (int i = 0; i < info.frames; ++i) {
+    writer.Append(SmallDepth(i), SmallVertices(body, i), SmallJoints(i));
+  }
+  writer.Finish();
+}
+
+// Why a sequence is refused.
+std::string Refusal(const fs::path& folder) {
+  try {
+    VerifySequence(folder);
+  } catch (const DataError& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+class Sequence : public testing::Test {
+ protected:
+  Sequence()
+      : root_(fs::temp_directory_path() /
+              fmt::format("vitruvia_{}_{}",
+                          testing::UnitTest::GetInstance()->current_test_info()->name(), getpid())),
+        folder_(root_ / "walk") {
+    fs::create_directories(root_);
+  }
+  ~Sequence() override { fs::remove_all(root_); }
+
+  // Replaces a part of a text file.
+  void Edit(const std::string& name, const std::string& from, const std::string& to) const {
+    std::string text = ReadWholeFile(folder_ / name);
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << text;
+    WriteWholeFile(folder_ / name, text.replace(at, from.size(), to));
+  }
+
+  void CutShort(const std::string& name, std::size_t bytes) const {
+    const std::string content = ReadWholeFile(folder_ / name);
+    WriteWholeFile(folder_ / name, content.substr(0, content.size() - bytes));
+  }
+
+  fs::path root_, folder_;
+};
+
+TEST_F(Sequence, ReadsBackWhatWasWritten) {
+  WriteSmall(folder_);
+  VerifySequence(folder_);
+  const BodyModel body = TinyBody();
+  const SequenceReader reader(folder_);
+  EXPECT_EQ(WriteSettings(reader.info().camera), WriteSettings(SmallInfo().camera));
+  EXPECT_EQ(reader.info().depth_unit_m, 0.0005);
+  EXPECT_EQ(reader.info().fps, 25.0);
+  EXPECT_EQ(reader.info().frames, kFrames);
+  EXPECT_EQ(reader.info().joints, SmallInfo().joints);
+  EXPECT_EQ(reader.info().provenance, SmallInfo().provenance);
+  EXPECT_EQ(reader.true_rest_mesh().vertices, body.rest.vertices);
+  EXPECT_EQ(reader.true_rest_mesh().triangles, body.rest.triangles);
+  EXPECT_EQ(reader.subject().rest.triangles, body.rest.triangles);
+  for (int i = 0; i < kFrames; ++i) {
+    EXPECT_EQ(reader.ReadTrueVertices(i), SmallVertices(body, i));
+    EXPECT_EQ(reader.true_joints(i).positions, SmallJoints(i).positions);
+    EXPECT_EQ(reader.true_joints(i).visible, SmallJoints(i).visible);
+    const DepthImage depth = reader.ReadDepth(i), expected = SmallDepth(i);
+    for (std::size_t p = 0; p < expected.pixels().size(); ++p) {
+      ASSERT_NEAR(depth.pixels()[p], expected.pixels()[p], 1e-6);
+    }
+  }
+}
+
+TEST_F(Sequence, HidesWhatTheMaskCallsBackground) {
+  WriteSmall(folder_);
+  fs::create_directory(folder_ / "mask");
+  MaskImage mask(16, 12, 255);
+  mask(5, 7) = 0;
+  mask(6, 7) = 1;
+  for (int i = 0; i < kFrames; ++i) {
+    WriteMaskPng(folder_ / fmt::format("mask/00000{}.png", i), mask);
+  }
+  const DepthImage depth = SequenceReader(folder_).ReadDepth(1);
+  EXPECT_EQ(depth(5, 7), 0.0f);
+  EXPECT_NEAR(depth(6, 7), SmallDepth(1)(6, 7), 1e-6);
+  EXPECT_NEAR(depth(4, 7), SmallDepth(1)(4, 7), 1e-6);
+
+  fs::remove(folder_ / "mask/000002.png");
+  EXPECT_THAT(Refusal(folder_), AllOf(HasSubstr("mask/000002.png"), HasSubstr("is missing")));
+  WriteDepthPng(folder_ / "mask/000002.png", SmallDepth(2), 0.001);
+  EXPECT_THAT(Refusal(folder_), AllOf(HasSubstr("mask/000002.png"), HasSubstr("8 bits")));
+}
+
+TEST_F(Sequence, HashKnowsEveryByteButTheProvenance) {
+  WriteSmall(folder_);
+  const std::string original = SequenceReader(folder_).hash();
+  EXPECT_EQ(original.size(), 16u);
+  WriteSmall(root_ / "again");
+  EXPECT_EQ(SequenceReader(root_ / "again").hash(), original);
+
+  Edit("sequence.json", "a test", "another");
+  EXPECT_EQ(SequenceReader(folder_).hash(), original);
+  Edit("sequence.json", "7.25", "7.26");
+  EXPECT_NE(SequenceReader(folder_).hash(), original);
+  Edit("sequence.json", "7.26", "7.25");
+  EXPECT_EQ(SequenceReader(folder_).hash(), original);
+
+  const auto differs_after = [&](const std::string& name, const auto& write) {
+    const std::string before = ReadWholeFile(folder_ / name);
+    write(folder_ / name);
+    const std::string hash = SequenceReader(folder_).hash();
+    WriteWholeFile(folder_ / name, before);
+    return hash != original;
+  };
+  EXPECT_TRUE(differs_after("depth/000001.png", [](const fs::path& file) {
+    DepthImage depth = SmallDepth(1);
+    depth(3, 3) += 0.001f;
+    WriteDepthPng(file, depth, 0.0005);
+  }));
+  EXPECT_TRUE(differs_after("truth/vertices.bin", [](const fs::path& file) {
+    std::string content = ReadWholeFile(file);
+    content[40] = static_cast<char>(content[40] ^ 1);
+    WriteWholeFile(file, content);
+  }));
+  EXPECT_EQ(SequenceReader(folder_).hash(), original);
+}
+
+TEST_F(Sequence, AppearsWholeOrNotAtAll) {
+  const BodyModel body = TinyBody();
+  {
+    SequenceWriter writer(folder_, SmallInfo(), body, body.rest);
+    writer.Append(SmallDepth(0), SmallVertices(body, 0), SmallJoints(0));
+    EXPECT_THROW(writer.Finish(), std::logic_error);
+    EXPECT_FALSE(fs::exists(folder_));
+  }
+  EXPECT_TRUE(fs::is_empty(root_));
+
+  WriteSmall(folder_);
+  const std::string hash = SequenceReader(folder_).hash();
+  { const SequenceWriter abandoned(folder_, SmallInfo(), body, body.rest); }
+  EXPECT_EQ(SequenceReader(folder_).hash(), hash);
+}
+
+TEST_F(Sequence, WriterNotesWhatCameToLightLater) {
+  const BodyModel body = TinyBody();
+  SequenceWriter writer(folder_, SmallInfo(), body, body.rest);
+  for (int i = 0; i < kFrames; ++i) {
+    writer.Append(SmallDepth(i), SmallVertices(body, i), SmallJoints(i));
+  }
+  writer.Note("warnings", {"it rained"});
+  writer.Finish();
+  const nlohmann::json provenance = SequenceReader(folder_).info().provenance;
+  EXPECT_EQ(provenance["warnings"][0], "it rained");
+  EXPECT_EQ(provenance["made_by"], "a test");
+}
+
+TEST_F(Sequence, WriterRefusesWhatDoesNotFit) {
+  const BodyModel body = TinyBody();
+  SequenceInfo info = SmallInfo();
+  info.frames = 0;
+  EXPECT_THROW(SequenceWriter(folder_, info, body, body.rest), std::invalid_argument);
+  info = SmallInfo();
+  info.camera.width = 0;
+  EXPECT_THROW(SequenceWriter(folder_, info, body, body.rest), std::invalid_argument);
+  info = SmallInfo();
+  info.joints[1] = "neck";
+  EXPECT_THROW(SequenceWriter(folder_, info, body, body.rest), std::invalid_argument);
+
+  SequenceWriter writer(folder_, SmallInfo(), body, body.rest);
+  const std::vector<Vector3f> vertices = SmallVertices(body, 0);
+  EXPECT_THROW(writer.Append(DepthImage(16, 13), vertices, SmallJoints(0)), std::invalid_argument);
+  EXPECT_THROW(writer.Append(SmallDepth(0), {}, SmallJoints(0)), std::invalid_argument);
+  EXPECT_THROW(writer.Append(SmallDepth(0), vertices, JointTruth{}), std::invalid_argument);
+  std::vector<Vector3f> broken = vertices;
+  broken[7].y() = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(writer.Append(SmallDepth(0), broken, SmallJoints(0)), std::invalid_argument);
+}
+
+TEST_F(Sequence, WriterSaysThatAFolderCannotBeWritten) {
+  const BodyModel body = TinyBody();
+  WriteWholeFile(root_ / "file", "in the way");
+  EXPECT_THROW(SequenceWriter(root_ / "file/walk", SmallInfo(), body, body.rest), RunError);
+  EXPECT_THROW(SequenceWriter(root_ / "file", SmallInfo(), body, body.rest), RunError);
+}
+
+// --- Damage, each kind refused with its reason ---------------------------------------------------
+
+TEST_F(Sequence, RefusesAFolderThatIsNone) {
+  EXPECT_THAT(Refusal(root_ / "nowhere"), AllOf(HasSubstr("nowhere"), HasSubstr("is no folder")));
+  EXPECT_THAT(Refusal(root_), AllOf(HasSubstr("sequence.json"), HasSubstr("cannot be opened")));
+}
+
+TEST_F(Sequence, RefusesWrongHeaders) {
+  const auto refusal_with = [&](const char* from, const char* to) {
+    WriteSmall(folder_);
+    Edit("sequence.json", from, to);
+    return Refusal(folder_);
+  };
+  EXPECT_THAT(
+      refusal_with("depth_unit_m", "depth_units"),
+      AllOf(HasSubstr("sequence.json: depth_units"), HasSubstr("did you mean \"depth_unit_m\"")));
+  EXPECT_THAT(refusal_with("\"frames\": 3", "\"frames\": 0"),
+              AllOf(HasSubstr("frames"), HasSubstr("got 0")));
+  EXPECT_THAT(refusal_with("\"width\": 16", "\"width\": 0"),
+              AllOf(HasSubstr("camera.width"), HasSubstr("got 0")));
+  EXPECT_THAT(refusal_with("\"fx\": 20.5,", ""), HasSubstr("camera.fx: missing"));
+  EXPECT_THAT(refusal_with("\"fx\": 20.5", "\"fx\": \"20.5\""), HasSubstr("expected a number"));
+  EXPECT_THAT(refusal_with("0.0005", "-1"), HasSubstr("depth_unit_m"));
+  EXPECT_THAT(refusal_with("\"version\": 1", "\"version\": 2"),
+              HasSubstr("version is 2, expected 1"));
+  EXPECT_THAT(refusal_with("vitruvia-sequence", "video"), HasSubstr("format is \"video\""));
+  EXPECT_THAT(refusal_with("\"left_hip\"", "\"neck\""), HasSubstr("\"neck\" stands twice"));
+  EXPECT_THAT(refusal_with("{", "["), HasSubstr("not valid JSON"));
+}
+
+TEST_F(Sequence, RefusesDamagedFrames) {
+  const auto refusal_after = [&](const auto& damage) {
+    WriteSmall(folder_);
+    damage();
+    return Refusal(folder_);
+  };
+  EXPECT_THAT(refusal_after([&] { fs::remove(folder_ / "depth/000001.png"); }),
+              AllOf(HasSubstr("depth/000001.png"), HasSubstr("frame 1 is missing")));
+  EXPECT_THAT(refusal_after([&] {
+                fs::copy_file(folder_ / "depth/000001.png", folder_ / "depth/000003.png");
+              }),
+              AllOf(HasSubstr("depth/000003.png"), HasSubstr("not part of the 3 frames")));
+  EXPECT_THAT(refusal_after([&] { CutShort("depth/000002.png", 20); }),
+              AllOf(HasSubstr("depth/000002.png"), HasSubstr("cut short")));
+  EXPECT_THAT(refusal_after([&] { WriteWholeFile(folder_ / "depth/000000.png", ""); }),
+              HasSubstr("is not a PNG file"));
+  EXPECT_THAT(refusal_after([&] {
+                WriteDepthPng(folder_ / "depth/000002.png", DepthImage(16, 11, 1.0f), 0.001);
+              }),
+              AllOf(HasSubstr("depth/000002.png"), HasSubstr("expected 16×12 pixels")));
+  EXPECT_THAT(refusal_after([&] { fs::remove_all(folder_ / "depth"); }),
+              AllOf(HasSubstr("depth"), HasSubstr("folder is missing")));
+}
+
+TEST_F(Sequence, RefusesDamagedTruth) {
+  const auto refusal_after = [&](const auto& damage) {
+    WriteSmall(folder_);
+    damage();
+    return Refusal(folder_);
+  };
+  EXPECT_THAT(refusal_after([&] { CutShort("truth/vertices.bin", 4); }),
+              AllOf(HasSubstr("vertices.bin"), HasSubstr("3 frames")));
+  EXPECT_THAT(refusal_after(
+                  [&] { std::ofstream(folder_ / "truth/vertices.bin", std::ios::app) << "more"; }),
+              AllOf(HasSubstr("vertices.bin"), HasSubstr("expected")));
+  EXPECT_THAT(refusal_after([&] { fs::remove(folder_ / "truth/vertices.bin"); }),
+              AllOf(HasSubstr("vertices.bin"), HasSubstr("cannot be opened")));
+  EXPECT_THAT(refusal_after([&] {
+                std::string content = ReadWholeFile(folder_ / "truth/vertices.bin");
+                const float nan = std::numeric_limits<float>::quiet_NaN();
+                const std::size_t frame_bytes = content.size() / kFrames;
+                std::copy_n(reinterpret_cast<const char*>(&nan), sizeof(nan),
+                            content.begin() + static_cast<std::ptrdiff_t>(frame_bytes + 5 * 12));
+                WriteWholeFile(folder_ / "truth/vertices.bin", content);
+              }),
+              AllOf(HasSubstr("frame 1, vertex 5 is not finite")));
+  EXPECT_THAT(refusal_after([&] { CutShort("truth/mesh.ply", 30); }), HasSubstr("mesh.ply"));
+  // Another mesh than the vertices are of.
+  EXPECT_THAT(refusal_after([&] {
+                const BodyModel finer = TinyBody(2);
+                SequenceInfo info = SmallInfo();
+                info.frames = 1;
+                SequenceWriter writer(root_ / "finer", info, finer, finer.rest);
+                writer.Append(SmallDepth(0), SmallVertices(finer, 0), SmallJoints(0));
+                writer.Finish();
+                fs::copy_file(root_ / "finer/truth/mesh.ply", folder_ / "truth/mesh.ply",
+                              fs::copy_options::overwrite_existing);
+              }),
+              AllOf(HasSubstr("vertices.bin"), HasSubstr("vertices of mesh.ply")));
+}
+
+TEST_F(Sequence, RefusesDamagedJoints) {
+  const auto refusal_with = [&](const char* from, const char* to) {
+    WriteSmall(folder_);
+    Edit("truth/joints.json", from, to);
+    return Refusal(folder_);
+  };
+  EXPECT_THAT(refusal_with("[-0.1,0.9,2.4]", "[-0.1,0.9]"),
+              AllOf(HasSubstr("joints.json: frames[0]."), HasSubstr("left_hip"),
+                    HasSubstr("three numbers")));
+  EXPECT_THAT(refusal_with("[-0.1,0.9,2.4]", "[-0.1,0.9,null]"), HasSubstr("three numbers"));
+  EXPECT_THAT(refusal_with(",[-0.1,0.9,2.4]", ""),
+              AllOf(HasSubstr("frames[0].positions"), HasSubstr("expected 2 items, got 1")));
+  EXPECT_THAT(refusal_with("[true,true]", "[true]"), HasSubstr("frames[0].visible"));
+  EXPECT_THAT(refusal_with("[true,true]", "[1,0]"), HasSubstr("true or false"));
+  EXPECT_THAT(refusal_with("\"neck\"", "\"knee\""),
+              AllOf(HasSubstr("joints[0]"), HasSubstr("expected \"neck\"")));
+  EXPECT_THAT(refusal_with("\"frames\"", "\"pictures\""), HasSubstr("frames: missing"));
+
+  WriteSmall(folder_);
+  fs::remove(folder_ / "truth/joints.json");
+  EXPECT_THAT(Refusal(folder_), HasSubstr("joints.json"));
+}
+
+TEST_F(Sequence, RefusesADamagedSubject) {
+  for (const char* name : {"subject/mesh.ply", "subject/subject.json", "subject/weights.bin"}) {
+    WriteSmall(folder_);
+    CutShort(name, 25);
+    EXPECT_THAT(Refusal(folder_), HasSubstr(name));
+    fs::remove(folder_ / name);
+    EXPECT_THAT(Refusal(folder_), HasSubstr(name));
+  }
+}
+
+TEST_F(Sequence, ReaderRefusesFramesThatAreNotThere) {
+  WriteSmall(folder_);
+  const SequenceReader reader(folder_);
+  EXPECT_THROW(reader.ReadDepth(kFrames), std::invalid_argument);
+  EXPECT_THROW(reader.true_joints(-1), std::invalid_argument);
+  EXPECT_THROW(reader.ReadTrueVertices(kFrames), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace vitruvia
