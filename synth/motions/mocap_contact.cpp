@@ -1,0 +1,127 @@
+#include "synth/motions/mocap_contact.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace vitruvia {
+namespace {
+
+using Vector3d = Vector3<double>;
+using Matrix3d = Matrix3<double>;
+using enum BoneId;
+
+// The floor is the height below which the lowest point is in this share of the frames.
+constexpr double kFloorQuantile = 0.1;
+// Markers and ankles wobble by about 2 cm on the floor. Heights up to that (as a share of leg
+// length) count as none, from twice that on as they are, with a smooth passage between.
+constexpr double kNoiseOfLeg = 0.03;
+// A heel lies behind its ankle by this share of the distance from the ankle to the toes.
+constexpr double kHeelOfFoot = 0.25;
+
+// A point that moves with a joint, and the flesh below it.
+struct ContactPoint {
+  std::size_t joint = 0;
+  Vector3d offset = Vector3d::Zero();  // at rest, from the joint
+  double radius_m = 0.0;
+};
+
+// Flesh round joints, as shares of leg length; read off a body model. Feet are dealt with apart.
+struct FleshyJoint {
+  BoneId bone;
+  bool at_tip;  // of the joint's bone, rather than at the joint
+  double radius_of_leg;
+};
+constexpr std::array<FleshyJoint, 10> kFleshyJoints{{{kLeftThigh, false, 0.12},
+                                                     {kRightThigh, false, 0.12},
+                                                     {kLeftShin, false, 0.06},
+                                                     {kRightShin, false, 0.06},
+                                                     {kChest, false, 0.14},
+                                                     {kHead, true, 0.02},
+                                                     {kLeftForearm, false, 0.05},
+                                                     {kRightForearm, false, 0.05},
+                                                     {kLeftHand, true, 0.02},
+                                                     {kRightHand, true, 0.02}}};
+
+std::size_t JointOf(const MocapJoints& joints, BoneId bone) {
+  return static_cast<std::size_t>(joints.joints[static_cast<std::size_t>(bone)]);
+}
+
+bool Descends(const MocapClip& clip, std::size_t joint, std::size_t ancestor) {
+  while (joint != ancestor && clip.joints[joint].parent >= 0) {
+    joint = static_cast<std::size_t>(clip.joints[joint].parent);
+  }
+  return joint == ancestor;
+}
+
+// Heel and toes on the sole, which is as far below the ankle as the lowest of the foot's joints.
+void AddFoot(const MocapClip& clip, std::size_t shin, std::size_t foot,
+             std::vector<ContactPoint>& points) {
+  const std::vector<Vector3d> rest = RestPositions(clip);
+  const Matrix3d rest_from_flat = RestFromFlatFoot(rest[foot] - rest[shin]);
+  double sole = 0.0;
+  Vector3d toes = Vector3d::Zero();
+  for (std::size_t joint = foot; joint < clip.joints.size(); ++joint) {
+    if (!Descends(clip, joint, foot)) continue;
+    const Vector3d from_ankle = rest[joint] + clip.joints[joint].tip - rest[foot];
+    const Vector3d flat = rest_from_flat.transpose() * from_ankle;
+    sole = std::min(sole, flat.y());
+    const Vector3d level(flat.x(), 0.0, flat.z());
+    if (level.norm() > toes.norm()) toes = level;
+  }
+  const Vector3d below(0.0, sole, 0.0);
+  points.push_back({foot, rest_from_flat * (below + toes), 0.0});
+  points.push_back({foot, rest_from_flat * (below - kHeelOfFoot * toes), 0.0});
+}
+
+std::vector<ContactPoint> ContactPoints(const MocapClip& clip, const MocapJoints& joints,
+                                        double leg_length_m) {
+  std::vector<ContactPoint> points;
+  AddFoot(clip, JointOf(joints, kLeftShin), JointOf(joints, kLeftFoot), points);
+  AddFoot(clip, JointOf(joints, kRightShin), JointOf(joints, kRightFoot), points);
+  for (const FleshyJoint& fleshy : kFleshyJoints) {
+    const std::size_t joint = JointOf(joints, fleshy.bone);
+    const Vector3d offset = fleshy.at_tip ? clip.joints[joint].tip : Vector3d::Zero();
+    points.push_back({joint, offset, fleshy.radius_of_leg * leg_length_m});
+  }
+  return points;
+}
+
+double SmoothStep(double u) {
+  u = std::clamp(u, 0.0, 1.0);
+  return u * u * (3.0 - 2.0 * u);
+}
+
+}  // namespace
+
+Matrix3<double> RestFromFlatFoot(const Vector3<double>& shin_direction_at_rest) {
+  return RotationBetween<double>(-Vector3d::UnitY(), shin_direction_at_rest);
+}
+
+std::vector<double> Clearances(const MocapClip& clip, const MocapJoints& joints,
+                               double leg_length_m) {
+  const std::vector<ContactPoint> points = ContactPoints(clip, joints, leg_length_m);
+  std::vector<double> heights;
+  heights.reserve(clip.frames.size());
+  for (const MocapFrame& frame : clip.frames) {
+    const MocapPose pose = PoseOf(clip, frame);
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const ContactPoint& point : points) {
+      const Vector3d place =
+          pose.positions[point.joint] + pose.rotations[point.joint] * point.offset;
+      lowest = std::min(lowest, place.y() - point.radius_m);
+    }
+    heights.push_back(lowest);
+  }
+  std::vector<double> sorted = heights;
+  const auto floor = sorted.begin() + static_cast<std::ptrdiff_t>(
+                                          kFloorQuantile * static_cast<double>(sorted.size() - 1));
+  std::nth_element(sorted.begin(), floor, sorted.end());
+  const double noise_m = kNoiseOfLeg * leg_length_m;
+  for (double& height : heights) {
+    height -= *floor;
+    height = std::max(0.0, height * SmoothStep(height / noise_m - 1.0));
+  }
+  return heights;
+}
+
+}  // namespace vitruvia

@@ -1,0 +1,18 @@
+// When a performer stands on the floor, and how far above it otherwise.
+#pragma once
+
+#include "synth/motions/mocap_joints.h"
+
+namespace vitruvia {
+
+// From the axes of a foot that stands flat to those of the file's rest pose. A rest pose with legs
+// apart is taken to have tilted the feet with their shins.
+Matrix3<double> RestFromFlatFoot(const Vector3<double>& shin_direction_at_rest);
+
+// For each frame the height of the performer's lowest point above the floor, metres; 0 within the
+// noise of the markers. The clip is in the subject's axes (y up) and metres. The floor is where the
+// lowest points are most of the time, so a jump is a jump, but a clip that is all flight stands.
+std::vector<double> Clearances(const MocapClip& clip, const MocapJoints& joints,
+                               double leg_length_m);
+
+}  // namespace vitruvia
