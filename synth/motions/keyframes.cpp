@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "synth/motions/keyframes_spline.h"
 
@@ -12,7 +13,10 @@ namespace {
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 constexpr double kPlantingStep_s = 1.0 / 120.0;  // of the integral over planted limbs
 
-using Vector2 = Eigen::Vector2d;  // on the floor: x (left), z (front)
+constexpr double kWeightTransfer_s = 0.1;
+
+using SupportWeights = std::array<double, kSupportCount>;  // sum to 1, or all 0: in the air
+using Vector2 = Eigen::Vector2d;                           // on the floor: x (left), z (front)
 
 constexpr std::array<BoneId, kSupportCount> kSupportBones = {BoneId::kLeftFoot, BoneId::kRightFoot,
                                                              BoneId::kLeftHand, BoneId::kRightHand};
@@ -96,15 +100,34 @@ class KeyframedMotion final : public Motion {
     return pose;
   }
 
-  std::array<double, kSupportCount> SupportAt(double time) const {
-    const auto next = std::upper_bound(keys_.begin(), keys_.end(), time,
-                                       [](double t, const KeyFrame& k) { return t < k.time_s; });
-    if (next == keys_.end()) return keys_.back().support;
-    const KeyFrame& before = *(next - 1);
-    const double u = (time - before.time_s) / (next->time_s - before.time_s);
-    std::array<double, kSupportCount> weights;
+  // Between two key frames rests what is planted at both.
+  SupportWeights SupportBetween(std::size_t key) const {
+    SupportWeights weights;
     for (std::size_t i = 0; i < kSupportCount; ++i) {
-      weights[i] = (1.0 - u) * before.support[i] + u * next->support[i];
+      weights[i] = keys_[key].planted[i] && keys_[key + 1].planted[i] ? 1.0 : 0.0;
+    }
+    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+    for (double& weight : weights) weight /= std::max(sum, 1.0);
+    return weights;
+  }
+
+  // Around a key frame the weight goes over from one limb to another.
+  SupportWeights SupportAt(double time) const {
+    const std::size_t intervals = keys_.size() - 1;
+    std::size_t i = 0;
+    while (i + 1 < intervals && time >= keys_[i + 1].time_s) ++i;
+    const double after = time - keys_[i].time_s, before = keys_[i + 1].time_s - time;
+    const bool at_start = after < before;
+    std::size_t other = i;
+    if (at_start && (i > 0 || loop_)) other = (i + intervals - 1) % intervals;
+    if (!at_start && (i + 1 < intervals || loop_)) other = (i + 1) % intervals;
+    const double other_width = keys_[other + 1].time_s - keys_[other].time_s;
+    const double half_transfer = 0.5 * std::min({kWeightTransfer_s, after + before, other_width});
+    const double share = std::max(0.0, 0.5 - 0.5 * std::min(after, before) / half_transfer);
+    const SupportWeights here = SupportBetween(i), there = SupportBetween(other);
+    SupportWeights weights;
+    for (std::size_t k = 0; k < kSupportCount; ++k) {
+      weights[k] = (1.0 - share) * here[k] + share * there[k];
     }
     return weights;
   }

@@ -10,7 +10,8 @@ namespace vitruvia {
 
 // All samples are grounded. Horizontally the pelvis follows the key frames' path, plus what keeps
 // the planted limbs where they are: with limb positions p_i(t) relative to the pelvis and weights
-// w_i(t) that change linearly between key frames, −∫ Σ w_i dp_i.
+// w_i(t), −∫ Σ w_i dp_i. What is planted at both of two neighbouring key frames bears the weight
+// between them, in equal shares; shares go over into each other within a tenth of a second.
 std::unique_ptr<Motion> MakeKeyframedMotion(const KeyframeSequence& sequence,
                                             const Skeleton& skeleton);
 

@@ -118,19 +118,9 @@ std::string MotionFile::Problem() const {
   return "";
 }
 
-std::array<double, kSupportCount> SupportWeights(const std::vector<std::string>& planted) {
-  std::array<double, kSupportCount> weights{};
-  for (std::size_t i = 0; i < kSupportCount; ++i) {
-    if (std::count(planted.begin(), planted.end(), kSupportNames[i]) > 0) {
-      weights[i] = 1.0 / static_cast<double>(planted.size());
-    }
-  }
-  return weights;
-}
-
-void SwapSides(std::array<double, kSupportCount>& support) {
-  std::swap(support[kLeftFoot], support[kRightFoot]);
-  std::swap(support[kLeftHand], support[kRightHand]);
+void SwapSides(std::array<bool, kSupportCount>& planted) {
+  std::swap(planted[kLeftFoot], planted[kRightFoot]);
+  std::swap(planted[kLeftHand], planted[kRightHand]);
 }
 
 // The path is mirrored about the frontal direction at `origin`, which it goes on from.
@@ -140,7 +130,7 @@ KeyFrame MirroredAfter(const RootState& origin, const RootState& start, KeyFrame
   key.root.forward_m = origin.forward_m + (key.root.forward_m - start.forward_m);
   key.root.heading_deg = origin.heading_deg - (key.root.heading_deg - start.heading_deg);
   key.root.roll_deg *= -1.0;
-  SwapSides(key.support);
+  SwapSides(key.planted);
   return key;
 }
 
@@ -175,11 +165,14 @@ KeyFrame Resolved(const KeyFrameSettings& settings, const std::vector<NamedPose>
   key.root = settings.root;
   key.root.left_m = settings.position_m[0];
   key.root.forward_m = settings.position_m[1];
-  key.support = SupportWeights(settings.planted);
+  for (std::size_t i = 0; i < kSupportCount; ++i) {
+    key.planted[i] = std::count(settings.planted.begin(), settings.planted.end(),
+                                std::string(kSupportNames[i])) > 0;
+  }
   if (settings.mirrored) {
     key.angles = Mirrored(key.angles);
     key.root.roll_deg *= -1.0;
-    SwapSides(key.support);
+    SwapSides(key.planted);
   }
   return key;
 }

@@ -39,7 +39,7 @@ struct KeyFrame {
   double time_s = 0.0;
   AnatomicalPose angles;
   RootState root;
-  std::array<double, kSupportCount> support{};  // sums to 1, or all 0: nothing is planted
+  std::array<bool, kSupportCount> planted{};
 };
 
 struct KeyframeSequence {
