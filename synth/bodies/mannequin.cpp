@@ -136,7 +136,7 @@ Figure FigureOfVolume(Sex sex, double height_m, double volume_m3) {
 
 // Guessed within the range of densitometry: without the air in lungs and bowels about 1,060 (lean)
 // to 1,030 kg/m³, with it about 5 % less; women carry more fat.
-double BodyDensity(Sex sex) { return sex == Sex::kMale ? 1000.0 : 990.0; }
+double BodyDensity(Sex sex) { return sex == Sex::kMale ? 1005.0 : 1000.0; }
 
 std::string MannequinProblem(const BodySettings& settings) {
   const double index = BodyMassIndex(settings);

@@ -63,7 +63,7 @@ Section SectionOfGirth(const SectionShape& shape, double first_deg, double step_
 }
 
 double At(const Girth& girth, double girth_score) {
-  return girth.mean_m + girth_score * girth.deviation_m;
+  return girth.mean_m * Growth(girth, girth_score);
 }
 Girth Scaled(const Girth& girth, double factor) {
   return {factor * girth.mean_m, factor * girth.deviation_m};
@@ -81,7 +81,7 @@ constexpr double kArmHeight = 0.800;  // of the arms' axis over stature (guessed
                                       // acromion at 0.82, less the deltoid)
 constexpr double kArmZ_cm = -2.0;
 
-constexpr double ShoulderBreadth(Sex sex) { return sex == Sex::kMale ? 0.0930 : 0.0900; }
+constexpr double ShoulderBreadth(Sex sex) { return sex == Sex::kMale ? 0.0975 : 0.0940; }
 
 struct ArmRingForm {
   double x_m;  // of the ring's plane
@@ -125,19 +125,20 @@ std::array<ArmRingForm, kPalm> ArmForms(Sex sex, double girth_score) {
 
 // The hand: half widths (z) and half thicknesses (y) of its rings, centimetres for a hand of 19 cm.
 struct HandRing {
-  double along_cm, forward_cm, up_cm, half_width_cm, half_thickness_cm;
+  double along_cm, rounding_cm;  // of the edges; of the middle beyond them
+  double forward_cm, up_cm, half_width_cm, half_thickness_cm;
 };
 constexpr std::array<HandRing, kArmRings - kPalm> kHand{{
-    {2.8, 0.3, 0.0, 3.6, 1.7},     // kPalm
-    {8.8, 0.0, 0.0, 4.2, 1.35},    // kKnuckles
-    {18.2, -0.4, -0.2, 2.3, 0.8},  // kFingers
+    {2.8, 0.0, 0.3, 0.0, 3.6, 1.75},     // kPalm
+    {8.6, 0.5, 0.0, 0.0, 4.2, 1.4},      // kKnuckles
+    {17.0, 1.6, -0.3, -0.2, 2.7, 0.85},  // kFingers
 }};
 constexpr double kHandLength_cm = 19.0;
 // The thumb's tip, of the same hand: along, up and forward from the wrist; in the order of the quad
 // that it leaves: top front and bottom front at the palm, bottom front and top front at the
 // knuckles.
 constexpr std::array<std::array<double, 3>, kThumbPoints> kThumb_cm{
-    {{7.0, 0.4, 7.2}, {7.0, -1.2, 7.2}, {9.2, -1.2, 6.6}, {9.2, 0.4, 6.6}}};
+    {{7.6, -0.1, 7.9}, {7.6, -1.5, 7.9}, {9.4, -1.5, 7.0}, {9.4, -0.1, 7.0}}};
 
 // Legs.
 
@@ -156,17 +157,17 @@ std::array<LegRingForm, kHeel> LegForms(Sex sex) {
   const SurveyTable& survey = Survey(sex);
   const Girth knee = Between(survey.calf, survey.thigh, 0.02);
   return {{
-      {0.452, survey.thigh, {{1.0, 1.02, 0.98, 1, 1, 0.98}, 0.92, 1.08}, 9.4, -0.6},
-      {0.385, Between(survey.thigh, knee, 0.34), {{1, 1, 1, 1, 1.02, 1}, 0.94, 1.06}, 9.6, -0.2},
-      {0.318, Between(survey.thigh, knee, 0.88), {{1, 1, 1, 1, 1.03, 1}, 0.96, 1.04}, 9.8, -0.2},
-      {0.256, Scaled(knee, 0.91), {{1, 1, 1, 1, 1.02, 1}, 0.96, 1.04}, 10.0, -0.9},
-      {0.196, survey.calf, {{1.02, 1.04, 1, 1, 0.96, 1}, 0.98, 1.02}, 10.2, -2.4},
+      {0.452, survey.thigh, {{1.0, 1.02, 0.98, 1, 1, 0.98}, 0.88, 1.12}, 8.8, -1.0},
+      {0.385, Between(survey.thigh, knee, 0.34), {{1, 1, 1, 1, 1.03, 1}, 0.91, 1.09}, 9.0, -0.4},
+      {0.318, Between(survey.thigh, knee, 0.88), {{1, 1, 1, 1, 1.03, 1}, 0.96, 1.04}, 9.3, -0.3},
+      {0.256, Scaled(knee, 0.90), {{1, 1, 1, 1, 1.03, 1}, 0.97, 1.03}, 9.5, -0.9},
+      {0.196, survey.calf, {{1.03, 1.06, 1, 1, 0.96, 1}, 0.98, 1.02}, 9.8, -2.6},
       {0.125,
-       Between(survey.calf, survey.ankle, 0.5),
-       {{1, 1.03, 1, 1, 1, 1}, 0.96, 1.04},
-       10.4,
-       -2.8},
-      {0.064, survey.ankle, {{1, 1.02, 1, 1, 1, 1}, 0.94, 1.06}, 10.6, -3.4},
+       Between(survey.calf, survey.ankle, 0.58),
+       {{1, 1.04, 1, 1, 1, 1}, 0.96, 1.04},
+       10.0,
+       -2.9},
+      {0.064, survey.ankle, {{1, 1.02, 1, 1, 1, 1}, 0.92, 1.08}, 10.2, -3.4},
   }};
 }
 
@@ -176,33 +177,33 @@ struct FootPoint {
 };
 constexpr std::array<std::array<FootPoint, kRingPoints>, kLegRings - kHeel> kFoot{{
     // kHeel
-    {{{-2.8, 2.4, -3.2},
-      {0, 3.2, -5.2},
-      {2.8, 2.4, -3.2},
-      {3.4, 6.0, 3.2},
-      {0, 8.8, 6.6},
-      {-3.4, 6.0, 3.2}}},
+    {{{-2.8, 2.8, -3.2},
+      {0, 3, -5.6},
+      {2.8, 2.8, -3.2},
+      {3.4, 6.2, 3},
+      {0, 9, 6.6},
+      {-3.4, 6.2, 3}}},
     // kInstep
-    {{{-2.4, 0, -1.6},
+    {{{-2.4, 0.1, -1.6},
       {0, 0, -2.6},
-      {2.4, 0, -1.6},
-      {3.9, 2.6, 6.6},
-      {-0.4, 6.6, 11.2},
-      {-3.5, 3.2, 6.6}}},
+      {2.4, 0.1, -1.6},
+      {3.9, 2.4, 6.4},
+      {-0.4, 6.8, 10.8},
+      {-3.6, 3.2, 6.6}}},
     // kBall
-    {{{-3.2, 0, 11.5},
-      {0, 0, 11.0},
-      {3.6, 0, 10.5},
-      {5.0, 1.7, 12.8},
-      {-0.6, 4.2, 16.0},
-      {-4.5, 2.0, 14.6}}},
+    {{{-3.2, 0, 12},
+      {0, 0, 11.5},
+      {3.6, 0, 10.8},
+      {5.1, 1.6, 12.8},
+      {-0.4, 4.2, 16},
+      {-4.7, 2, 14.6}}},
     // kToes
-    {{{-2.8, 0.2, 20.6},
-      {-0.2, 0.2, 20.6},
-      {2.4, 0.2, 19.2},
-      {3.0, 1.2, 19.4},
-      {-0.6, 2.2, 20.8},
-      {-3.4, 1.3, 21.0}}},
+    {{{-2.8, 0.2, 20.4},
+      {0.1, 0.2, 20.9},
+      {2.8, 0.2, 19},
+      {3.8, 1.1, 18.9},
+      {0, 2.2, 20.9},
+      {-3.6, 1.4, 20.6}}},
 }};
 constexpr double kFootLength_cm = 27.1;      // ANSUR II men, at 1.756 m
 constexpr double kWomansFoot = 24.6 / 27.1;  // ANSUR II
@@ -235,8 +236,8 @@ LegJoints LeftLegJoints(Sex sex, double girth_score) {
   const double foot = (sex == Sex::kMale ? 1.0 : kWomansFoot);
   LegJoints joints;
   joints.hip = {kHalfHipJoints * stature, kHipHeight * stature, 0.0};
-  joints.knee = {kCentimetre * 9.9 + 0.8 * spread, kKneeHeight * stature, -0.003};
-  joints.ankle = {kCentimetre * 10.6 + 0.7 * spread, kAnkleHeight * stature, -0.033};
+  joints.knee = {kCentimetre * 9.4 + 0.8 * spread, kKneeHeight * stature, -0.003};
+  joints.ankle = {kCentimetre * 10.2 + 0.7 * spread, kAnkleHeight * stature, -0.033};
   joints.toe_tip = joints.ankle + Vector3d(0.015, -0.04, 0.215) * foot;
   joints.toe_tip.y() = 0.012;
   return joints;
@@ -248,11 +249,15 @@ Eigen::MatrixX3d ArmPoints(Sex sex, double girth_score) {
   const auto forms = ArmForms(sex, girth_score);
   for (int r = 0; r < kPalm; ++r) {
     const ArmRingForm& form = forms[r];
+    // What an arm has beyond the mean hangs below the bone: half of the added radius.
+    const double added_radius =
+        std::max(0.0, At(form.girth, girth_score) - form.girth.mean_m) / (2.0 * std::numbers::pi);
+    const double sag = 0.5 * added_radius;
     // Width along z, depth along y; point 0 is the bottom front.
     const Section section = SectionOfGirth(form.shape, -30.0, -60.0, At(form.girth, girth_score));
     for (int k = 0; k < kRingPoints; ++k) {
       points.row(kRingPoints * r + k) << form.x_m,
-          joints.wrist.y() + kCentimetre * form.up_cm + section(k, 1),
+          joints.wrist.y() + kCentimetre * form.up_cm - sag + section(k, 1),
           joints.wrist.z() + kCentimetre * form.forward_cm + section(k, 0);
     }
   }
@@ -263,7 +268,9 @@ Eigen::MatrixX3d ArmPoints(Sex sex, double girth_score) {
   for (int r = kPalm; r < kArmRings; ++r) {
     const HandRing& ring = kHand[r - kPalm];
     for (int k = 0; k < kRingPoints; ++k) {
-      points.row(kRingPoints * r + k) << joints.wrist.x() + hand * ring.along_cm,
+      const bool middle = k == 1 || k == 4;
+      points.row(kRingPoints * r + k)
+          << joints.wrist.x() + hand * (ring.along_cm + (middle ? ring.rounding_cm : 0.0)),
           joints.wrist.y() + hand * (ring.up_cm + flesh * ring.half_thickness_cm * kThick[k]),
           joints.wrist.z() + hand * (ring.forward_cm + flesh * ring.half_width_cm * kWide[k]);
     }
@@ -291,7 +298,7 @@ Eigen::MatrixX3d LegPoints(Sex sex, double girth_score) {
     }
   }
   const double foot = kCentimetre * (sex == Sex::kMale ? 1.0 : kWomansFoot);
-  const double flesh = 1.0 + girth_score * survey.ankle.deviation_m / survey.ankle.mean_m;
+  const double flesh = Growth(survey.ankle, girth_score);
   const double turn = kFootSpread_deg * std::numbers::pi / 180.0;
   for (int r = kHeel; r < kLegRings; ++r) {
     for (int k = 0; k < kRingPoints; ++k) {

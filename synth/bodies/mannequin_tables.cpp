@@ -1,5 +1,7 @@
 #include "synth/bodies/mannequin_tables.h"
 
+#include <cmath>
+
 namespace vitruvia::mannequin {
 
 const SurveyTable& Survey(Sex sex) {
@@ -34,6 +36,11 @@ const SurveyTable& Survey(Sex sex) {
       .wrist = {0.154, 0.008},
   };
   return sex == Sex::kMale ? kMen : kWomen;
+}
+
+double Growth(double deviation_of_mean, double girth_score) {
+  const double deviation = deviation_of_mean * girth_score;
+  return girth_score < 0.0 ? std::exp(deviation) : 1.0 + deviation;
 }
 
 }  // namespace vitruvia::mannequin

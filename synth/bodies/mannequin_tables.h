@@ -25,6 +25,13 @@ struct SurveyTable {
 };
 const SurveyTable& Survey(Sex sex);
 
+// What a girth comes to over its mean for a person that many standard deviations from it. Below the
+// mean it shrinks by equal ratios, for girths differ in spread and none may vanish.
+double Growth(double deviation_of_mean, double girth_score);
+inline double Growth(const Girth& girth, double girth_score) {
+  return Growth(girth.deviation_m / girth.mean_m, girth_score);
+}
+
 // A muscle that hangs relaxed is thinner than the survey's flexed one (guessed).
 inline constexpr double kRelaxedBiceps = 0.93;
 inline constexpr double kRelaxedForearm = 0.96;
