@@ -1,7 +1,9 @@
 #include "synth/motions/mocap_contact.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace vitruvia {
 namespace {
@@ -10,8 +12,8 @@ using Vector3d = Vector3<double>;
 using Matrix3d = Matrix3<double>;
 using enum BoneId;
 
-// The floor is the height below which the lowest point is in this share of the frames.
-constexpr double kFloorQuantile = 0.1;
+// Longer than half a flight: a jump of 0.8 s would rise 0.78 m.
+constexpr double kHalfWindow_s = 0.4;
 // Markers and ankles wobble by about 2 cm on the floor. Heights up to that (as a share of leg
 // length) count as none, from twice that on as they are, with a smooth passage between.
 constexpr double kNoiseOfLeg = 0.03;
@@ -91,6 +93,25 @@ double SmoothStep(double u) {
   return u * u * (3.0 - 2.0 * u);
 }
 
+// The least height in a window round each frame, averaged over windows of the same width.
+std::vector<double> FloorHeights(const std::vector<double>& heights, std::ptrdiff_t half_window) {
+  const auto count = static_cast<std::ptrdiff_t>(heights.size());
+  const auto over_windows = [&](const std::vector<double>& values, auto&& summary) {
+    std::vector<double> result;
+    result.reserve(values.size());
+    for (std::ptrdiff_t i = 0; i < count; ++i) {
+      result.push_back(summary(values.begin() + std::max<std::ptrdiff_t>(i - half_window, 0),
+                               values.begin() + std::min(i + half_window + 1, count)));
+    }
+    return result;
+  };
+  const std::vector<double> least =
+      over_windows(heights, [](auto begin, auto end) { return *std::min_element(begin, end); });
+  return over_windows(least, [](auto begin, auto end) {
+    return std::accumulate(begin, end, 0.0) / static_cast<double>(end - begin);
+  });
+}
+
 }  // namespace
 
 Matrix3<double> RestFromFlatFoot(const Vector3<double>& shin_direction_at_rest) {
@@ -112,14 +133,12 @@ std::vector<double> Clearances(const MocapClip& clip, const MocapJoints& joints,
     }
     heights.push_back(lowest);
   }
-  std::vector<double> sorted = heights;
-  const auto floor = sorted.begin() + static_cast<std::ptrdiff_t>(
-                                          kFloorQuantile * static_cast<double>(sorted.size() - 1));
-  std::nth_element(sorted.begin(), floor, sorted.end());
+  const auto half_window = static_cast<std::ptrdiff_t>(std::ceil(kHalfWindow_s / clip.frame_s));
+  const std::vector<double> floor = FloorHeights(heights, half_window);
   const double noise_m = kNoiseOfLeg * leg_length_m;
-  for (double& height : heights) {
-    height -= *floor;
-    height = std::max(0.0, height * SmoothStep(height / noise_m - 1.0));
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    const double height = heights[i] - floor[i];
+    heights[i] = std::max(0.0, height * SmoothStep(height / noise_m - 1.0));
   }
   return heights;
 }

@@ -10,8 +10,9 @@ namespace vitruvia {
 Matrix3<double> RestFromFlatFoot(const Vector3<double>& shin_direction_at_rest);
 
 // For each frame the height of the performer's lowest point above the floor, metres; 0 within the
-// noise of the markers. The clip is in the subject's axes (y up) and metres. The floor is where the
-// lowest points are most of the time, so a jump is a jump, but a clip that is all flight stands.
+// noise of the markers. The clip is in the subject's axes (y up) and metres. Captured floors slope
+// by some centimetres over a room, so the floor's height is sought anew all along the clip, by
+// this: nobody is in the air for as long as a second.
 std::vector<double> Clearances(const MocapClip& clip, const MocapJoints& joints,
                                double leg_length_m);
 
