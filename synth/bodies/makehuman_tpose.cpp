@@ -60,9 +60,10 @@ enum ArmGroup { kShoulder, kUpperArm, kForearmNear, kForearmFar, kHandGroup, kAr
 constexpr int kTrunk = 0;
 int GroupIndex(int side, int group) { return 1 + side * kArmGroups + group; }
 
-// Raising an arm turns the shoulder blade half as far as the arm in its socket (scapulohumeral
-// rhythm 2 : 1, Inman et al. 1944), mostly above 30°: some 15° from the A-pose to the T-pose.
-constexpr double kShoulderRiseDeg = 15.0;
+// Raising an arm lifts its shoulder too: by some 15° from the A-pose to the T-pose (two parts of
+// arm to one of shoulder blade, Inman et al. 1944). Our chest is one bone, so what is lifted here
+// stays lifted when the arms hang; less creases the neck. Tuned by eye between the two.
+constexpr double kShoulderRiseDeg = 10.0;
 
 // The rotation that turns direction a1 into a2, and the part of b1 across it into that of b2.
 Matrix3<double> RotationOfFrames(const Vector3d& a1, const Vector3d& b1, const Vector3d& a2,
