@@ -1,6 +1,7 @@
 #include "geometry/surface_map.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numeric>
 
@@ -23,33 +24,41 @@ struct Candidate {
   }
 };
 
-// Barycentric coordinates of the triangle's point closest to p, by the Voronoi regions of its
-// corners and sides (Ericson 2005, sec. 5.1.5).
-Vector3d ClosestBarycentric(const Vector3d& p, const Vector3d& a, const Vector3d& b,
-                            const Vector3d& c) {
-  const Vector3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
-  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
-  if (d1 <= 0.0 && d2 <= 0.0) return {1.0, 0.0, 0.0};
-  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
-  if (d3 >= 0.0 && d4 <= d3) return {0.0, 1.0, 0.0};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
-    const double t = d1 / (d1 - d3);
-    return {1.0 - t, t, 0.0};
+using Corners = std::array<Vector3d, 3>;
+
+// Tries a point of the triangle, given by its barycentric coordinates.
+void Try(const Vector3d& point, const Corners& corners, std::int32_t triangle,
+         const Vector3d& barycentric, Candidate& best) {
+  const Vector3d on_triangle =
+      barycentric[0] * corners[0] + barycentric[1] * corners[1] + barycentric[2] * corners[2];
+  const Candidate candidate{(on_triangle - point).squaredNorm(), triangle, barycentric};
+  if (candidate.Beats(best)) best = candidate;
+}
+
+// The closest point is the foot of the perpendicular, or lies on a side. All are tried, so a
+// triangle without area, for which the first means nothing, is treated rightly too.
+void TryTriangle(const Vector3d& point, const Corners& corners, std::int32_t triangle,
+                 Candidate& best) {
+  const Vector3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
+  const Vector3d ap = point - corners[0], normal = ab.cross(ac);
+  const double area_squared = normal.squaredNorm();
+  if (area_squared > 0.0) {
+    const double v = ap.cross(ac).dot(normal) / area_squared;
+    const double w = ab.cross(ap).dot(normal) / area_squared;
+    if (v > 0.0 && w > 0.0 && v + w < 1.0) {
+      Try(point, corners, triangle, {1.0 - v - w, v, w}, best);
+    }
   }
-  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
-  if (d6 >= 0.0 && d5 <= d6) return {0.0, 0.0, 1.0};
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
-    const double t = d2 / (d2 - d6);
-    return {1.0 - t, 0.0, t};
+  for (int from = 0; from < 3; ++from) {
+    const int to = (from + 1) % 3;
+    const Vector3d side = corners[to] - corners[from];
+    const double length_squared = side.squaredNorm();
+    const double along = (point - corners[from]).dot(side);
+    Vector3d barycentric = Vector3d::Zero();
+    barycentric[to] = length_squared > 0.0 ? std::clamp(along / length_squared, 0.0, 1.0) : 0.0;
+    barycentric[from] = 1.0 - barycentric[to];
+    Try(point, corners, triangle, barycentric, best);
   }
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
-    const double t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-    return {0.0, 1.0 - t, t};
-  }
-  return Vector3d(va, vb, vc) / (va + vb + vc);
 }
 
 // A binary tree of axis-aligned boxes over the triangles.
@@ -112,7 +121,10 @@ class BoxTree {
   void Search(int index, const Vector3d& point, Candidate& best) const {
     const Node& node = nodes_[index];
     if (node.left < 0) {
-      for (int i = node.begin; i < node.end; ++i) TryTriangle(order_[i], point, best);
+      for (int i = node.begin; i < node.end; ++i) {
+        const std::int32_t t = order_[i];
+        TryTriangle(point, {Corner(t, 0), Corner(t, 1), Corner(t, 2)}, t, best);
+      }
       return;
     }
     std::array<std::pair<double, int>, 2> children{
@@ -122,14 +134,6 @@ class BoxTree {
     for (const auto& [squared_distance, child] : children) {
       if (squared_distance <= best.squared_distance) Search(child, point, best);
     }
-  }
-
-  void TryTriangle(std::int32_t triangle, const Vector3d& point, Candidate& best) const {
-    const Vector3d a = Corner(triangle, 0), b = Corner(triangle, 1), c = Corner(triangle, 2);
-    Candidate candidate{0.0, triangle, ClosestBarycentric(point, a, b, c)};
-    const Vector3d& w = candidate.barycentric;
-    candidate.squared_distance = (w[0] * a + w[1] * b + w[2] * c - point).squaredNorm();
-    if (candidate.Beats(best)) best = candidate;
   }
 
   const TriangleMesh& mesh_;
