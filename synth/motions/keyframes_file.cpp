@@ -92,10 +92,12 @@ struct MotionFile {
     f.List("poses", poses, {.meaning = "poses that key frames refer to"});
     f.List("keyframes", keyframes, {.meaning = "the key frames", .required = true});
   }
-  std::string Problem() const;
 };
 
-std::string MotionFile::Problem() const {
+// What is wrong with the file as a whole, "" if nothing. Asked after reading, since a misspelt key
+// explains missing key frames better.
+std::string ProblemOf(const MotionFile& file) {
+  const auto& [title, loop, then_mirrored, poses, keyframes] = file;
   if (keyframes.empty()) return "keyframes: expected at least one key frame, got an empty list";
   if (keyframes[0].time_s != 0.0) {
     return fmt::format("keyframes[0].time_s: expected 0 s, got {:g} s", keyframes[0].time_s);
@@ -245,6 +247,9 @@ void CheckLoop(const std::vector<KeyFrame>& keys, const std::string& file) {
 
 KeyframeSequence ReadKeyframes(const std::filesystem::path& file) {
   const auto settings = ReadSettingsFile<MotionFile>(file);
+  if (const std::string problem = ProblemOf(settings); !problem.empty()) {
+    throw ConfigError(fmt::format("{}: {}", file.string(), problem));
+  }
   KeyframeSequence sequence;
   sequence.loop = settings.loop;
   for (std::size_t i = 0; i < settings.keyframes.size(); ++i) {

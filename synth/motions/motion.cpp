@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <numbers>
+#include <stdexcept>
 
 #include "core/error.h"
 #include "synth/motions/keyframes.h"
+#include "synth/motions/mocap.h"
 
 namespace vitruvia {
 namespace {
@@ -78,9 +80,9 @@ std::unique_ptr<Motion> LoadFile(const MotionSettings& settings, const Skeleton&
     case MotionSource::kKeyframes:
       return MakeKeyframedMotion(ReadKeyframes(settings.file), skeleton);
     case MotionSource::kCmu:
+      return LoadAsfAmc(settings.file, settings.skeleton, skeleton);
     case MotionSource::kBvh:
-      throw ConfigError(
-          fmt::format("{}: motion capture is not available yet", settings.file.string()));
+      return LoadBvh(settings.file, skeleton);
   }
   throw std::logic_error("unknown motion source");
 }
