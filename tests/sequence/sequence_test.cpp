@@ -4,7 +4,6 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,6 +13,7 @@
 #include "core/json_settings.h"
 #include "geometry/depth_png.h"
 #include "geometry/mask_png.h"
+#include "support/temporary_folder.h"
 #include "support/tiny_body.h"
 
 namespace vitruvia {
@@ -75,15 +75,6 @@ std::string Refusal(const fs::path& folder) {
 
 class Sequence : public testing::Test {
  protected:
-  Sequence()
-      : root_(fs::temp_directory_path() /
-              fmt::format("vitruvia_{}_{}",
-                          testing::UnitTest::GetInstance()->current_test_info()->name(), getpid())),
-        folder_(root_ / "walk") {
-    fs::create_directories(root_);
-  }
-  ~Sequence() override { fs::remove_all(root_); }
-
   // Replaces a part of a text file.
   void Edit(const std::string& name, const std::string& from, const std::string& to) const {
     std::string text = ReadWholeFile(folder_ / name);
@@ -97,7 +88,8 @@ class Sequence : public testing::Test {
     WriteWholeFile(folder_ / name, content.substr(0, content.size() - bytes));
   }
 
-  fs::path root_, folder_;
+  TemporaryFolder temporary_;
+  fs::path root_ = temporary_.path(), folder_ = root_ / "walk";
 };
 
 TEST_F(Sequence, ReadsBackWhatWasWritten) {

@@ -1,0 +1,326 @@
+#include "synth/scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/json_settings.h"
+#include "sequence/sequence.h"
+#include "support/temporary_folder.h"
+#include "support/tiny_body.h"
+#include "synth/render/depth_renderer.h"
+#include "synth/scene/recording.h"
+
+namespace vitruvia {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+// Stands, then raises the left forearm by 90 degrees within a second, while walking `stride_m` to
+// its left.
+class RaiseLeftForearm final : public Motion {
+ public:
+  explicit RaiseLeftForearm(const Skeleton& skeleton, double stride_m = 0.0)
+      : skeleton_(skeleton), stride_m_(stride_m) {}
+  MotionSample At(double time_s) const override {
+    MotionSample sample{JointPose::Rest(skeleton_), true, 0.0};
+    const double share = std::min(time_s, 1.0);
+    sample.pose.local_rotations[static_cast<int>(BoneId::kLeftForearm)] =
+        ExpSo3<double>({0.0, 0.0, 0.5 * M_PI * share});
+    sample.pose.pelvis_position.x() += stride_m_ * share;
+    return sample;
+  }
+  double duration_s() const override { return 1.0; }
+
+ private:
+  Skeleton skeleton_;
+  double stride_m_;
+};
+
+SceneSettings SmallScene() {
+  SceneSettings scene;
+  scene.frames = 4;
+  scene.fps = 3.0;  // one second from the first frame to the last
+  scene.view.position_m = {0.0, 1.0, 2.8};
+  scene.view.look_at_m = {0.0, 1.0, 0.0};
+  return scene;
+}
+
+void Record(const SceneSettings& scene, const fs::path& folder, double stride_m = 0.0) {
+  const BodyModel truth = TinyBody(3), subject = TinyBody(2);
+  RecordSequence(scene, truth, subject, RaiseLeftForearm(truth.skeleton, stride_m), folder);
+}
+
+TEST(View, LooksUprightFromItsPlaceAtItsPoint) {
+  ViewSettings view;
+  view.position_m = {1.0, 1.5, 2.0};
+  view.look_at_m = {0.0, 0.5, 0.0};
+  const Rigidd camera_from_subject = CameraFromSubject(view);
+  const Matrix3<double>& r = camera_from_subject.rotation;
+  EXPECT_LT((r * r.transpose() - Matrix3<double>::Identity()).norm(), 1e-12);
+  EXPECT_NEAR(r.determinant(), 1.0, 1e-12);
+  EXPECT_LT((camera_from_subject * Vector3d(1.0, 1.5, 2.0)).norm(), 1e-12);
+  EXPECT_LT((camera_from_subject * Vector3d(0.0, 0.5, 0.0) - Vector3d(0, 0, std::sqrt(6.0))).norm(),
+            1e-12);
+  const Vector3d up = r * Vector3d::UnitY();
+  EXPECT_NEAR(up.x(), 0.0, 1e-12);  // no roll
+  EXPECT_LT(up.y(), 0.0);           // camera y runs down
+
+  // From the front, the subject's left is on the image's right.
+  view.position_m = {0.0, 1.0, 3.0};
+  view.look_at_m = {0.0, 1.0, 0.0};
+  const Vector3d left_hand = CameraFromSubject(view) * Vector3d(0.8, 1.4, 0.1);
+  EXPECT_LT((left_hand - Vector3d(0.8, -0.4, 2.9)).norm(), 1e-12);
+}
+
+TEST(Pose, StandsOnTheFloorWhereItIsToBeGrounded) {
+  const BodyModel body = TinyBody();
+  const Rigidd same;
+  const auto lowest = [](const PosedBody& posed) {
+    float y = 1e9f;
+    for (const Vector3f& p : posed.vertices) y = std::min(y, p.y());
+    return y;
+  };
+  for (const Skinning skinning : {Skinning::kLinear, Skinning::kDualQuaternion}) {
+    MotionSample sample{JointPose::Rest(body.skeleton), true, 0.25};
+    sample.pose.pelvis_position.y() += 7.0;
+    const PosedBody lifted = Pose(body, sample, skinning, same);
+    EXPECT_NEAR(lowest(lifted), 0.25f, 1e-5);
+    for (int b = 0; b < kBoneCount; ++b) {
+      EXPECT_LT((lifted.joints[b] - body.skeleton.joints[b] - Vector3d(0, 0.25, 0)).norm(), 1e-5);
+    }
+    sample.grounded = false;
+    EXPECT_NEAR(lowest(Pose(body, sample, skinning, same)), 7.0f, 1e-5);
+  }
+}
+
+TEST(Pose, MovesSurfaceAndJointsIntoTheCameraFrame) {
+  const BodyModel body = TinyBody();
+  const Rigidd camera_from_subject = CameraFromSubject(ViewSettings{});
+  const MotionSample sample{JointPose::Rest(body.skeleton), true, 0.0};
+  const PosedBody posed = Pose(body, sample, Skinning::kLinear, camera_from_subject);
+  for (std::size_t i = 0; i < posed.vertices.size(); ++i) {
+    const Vector3d expected = camera_from_subject * body.rest.vertices[i].cast<double>().eval();
+    ASSERT_LT((posed.vertices[i].cast<double>() - expected).norm(), 1e-6);
+  }
+  for (int b = 0; b < kBoneCount; ++b) {
+    ASSERT_LT((posed.joints[b] - camera_from_subject * body.skeleton.joints[b]).norm(), 1e-7);
+  }
+}
+
+TEST(VisibleJoints, AreInTheImageAndNotBehindOtherThings) {
+  const PinholeCamera camera;
+  DepthImage depth(camera.width, camera.height, 2.0f);
+  depth(10, 20) = 0.0f;
+  const auto at = [&](double u, double v, double z) { return camera.Unproject(u, v, z); };
+  EXPECT_THAT(VisibleJoints({at(100, 100, 2.1), at(100, 100, 2.2), at(100, 100, 1.9),
+                             at(10, 20, 5.0), at(319.4, 239.4, 2.1), at(319.6, 100, 2.1),
+                             at(100, -0.6, 2.1), at(100, 100, -2.1), Vector3d(1e30, 0.0, 1e-30)},
+                            depth, camera),
+              testing::ElementsAre(true, false, true, true, true, false, false, false, false));
+}
+
+TEST(RecordSequence, WritesWhatTheBodyDoes) {
+  const TemporaryFolder temporary;
+  const fs::path folder = temporary / "walk";
+  const SceneSettings scene = SmallScene();
+  Record(scene, folder);
+  VerifySequence(folder);
+  const SequenceReader reader(folder);
+  ASSERT_EQ(reader.info().frames, 4);
+  EXPECT_EQ(reader.info().fps, 3.0);
+  EXPECT_EQ(reader.subject().rest.vertices.size(), TinyBody(2).rest.vertices.size());
+  ASSERT_EQ(reader.info().joints.size(), std::size_t{kBoneCount});
+  EXPECT_EQ(reader.info().joints[5], Bones()[5].joint);
+
+  const BodyModel truth = TinyBody(3);
+  const RaiseLeftForearm motion(truth.skeleton);
+  DepthRenderer renderer(scene.view.camera);
+  for (int i = 0; i < 4; ++i) {
+    const PosedBody posed =
+        Pose(truth, motion.At(i / 3.0), Skinning::kLinear, CameraFromSubject(scene.view));
+    EXPECT_EQ(reader.ReadTrueVertices(i), posed.vertices);
+    EXPECT_EQ(reader.true_joints(i).positions, posed.joints);
+    const DepthImage stored = reader.ReadDepth(i);
+    const DepthImage rendered = renderer.Render(posed.vertices, truth.rest.triangles);
+    for (std::size_t p = 0; p < stored.pixels().size(); ++p) {
+      ASSERT_NEAR(stored.pixels()[p], rendered.pixels()[p], 0.0005 + 1e-5);
+    }
+  }
+}
+
+TEST(RecordSequence, ShowsTheLeftHandOnTheRightAndAbove) {
+  const TemporaryFolder temporary;
+  Record(SmallScene(), temporary / "walk");
+  const SequenceReader reader(temporary / "walk");
+  const int wrist = static_cast<int>(BoneId::kLeftHand), elbow = wrist - 1;
+  const JointTruth& joints = reader.true_joints(3);
+  const Eigen::Vector2d wrist_px = reader.info().camera.Project(joints.positions[wrist]);
+  const Eigen::Vector2d elbow_px = reader.info().camera.Project(joints.positions[elbow]);
+  EXPECT_GT(elbow_px.x(), 170.0);
+  EXPECT_NEAR(wrist_px.x(), elbow_px.x(), 1.0);
+  EXPECT_LT(wrist_px.y(), elbow_px.y() - 20.0);
+  EXPECT_GT(reader.ReadDepth(3)(static_cast<int>(wrist_px.x()), static_cast<int>(wrist_px.y())),
+            2.5f);
+  EXPECT_EQ(joints.visible, std::vector<bool>(kBoneCount, true));
+}
+
+TEST(RecordSequence, HidesJointsBehindTheBody) {
+  const TemporaryFolder temporary;
+  SceneSettings scene = SmallScene();
+  scene.frames = 1;
+  scene.view.position_m = {-2.8, 1.4, 0.0};  // from the subject's right, along the arms
+  scene.view.look_at_m = {0.0, 1.4, 0.0};
+  scene.view.camera.fx = scene.view.camera.fy = 200.0;
+  Record(scene, temporary / "side");
+  const JointTruth joints = SequenceReader(temporary / "side").true_joints(0);
+  const auto visible = [&](BoneId bone) { return joints.visible[static_cast<int>(bone)]; };
+  EXPECT_FALSE(visible(BoneId::kRightUpperArm));  // behind the length of the right arm
+  EXPECT_FALSE(visible(BoneId::kLeftHand));
+  EXPECT_TRUE(visible(BoneId::kRightShin));
+  EXPECT_FALSE(visible(BoneId::kLeftShin));
+}
+
+TEST(RecordSequence, SameSettingsGiveTheSameBytes) {
+  const TemporaryFolder temporary;
+  SceneSettings scene = SmallScene();
+  scene.sensor = {.model = SensorModel::kGaussian, .sigma_m = 0.003, .dropout = 0.02};
+  Record(scene, temporary / "a");
+  Record(scene, temporary / "b");
+  int files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(temporary / "a")) {
+    if (!entry.is_regular_file()) continue;
+    ++files;
+    const fs::path name = entry.path().lexically_relative(temporary / "a");
+    EXPECT_EQ(ReadWholeFile(entry.path()), ReadWholeFile(temporary / "b" / name)) << name;
+  }
+  EXPECT_EQ(files, 1 + 4 + 3 + 3);
+
+  // Another seed is other noise on the same truth, and each frame has noise of its own.
+  scene.seed = 2;
+  Record(scene, temporary / "c");
+  const SequenceReader a(temporary / "a"), c(temporary / "c");
+  EXPECT_NE(a.hash(), c.hash());
+  EXPECT_NE(a.ReadDepth(0).pixels(), c.ReadDepth(0).pixels());
+  EXPECT_NE(a.ReadDepth(0).pixels(), a.ReadDepth(1).pixels());
+  EXPECT_EQ(a.ReadTrueVertices(3), c.ReadTrueVertices(3));
+}
+
+TEST(RecordSequence, SaysHowTheTruthDiffersAndWhenTheBodyLeaves) {
+  const TemporaryFolder temporary;
+  SceneSettings scene = SmallScene();
+  scene.truth.skinning = Skinning::kDualQuaternion;
+  scene.truth.refinement.weight_diffusion = 3;
+  testing::internal::CaptureStderr();
+  Record(scene, temporary / "walk", 1.6);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              HasSubstr("warning: the body leaves the image in 2 of 4 frames, first in frame 2"));
+  const Json provenance = SequenceReader(temporary / "walk").info().provenance;
+  EXPECT_THAT(provenance["warnings"][0].get<std::string>(), HasSubstr("first in frame 2"));
+  EXPECT_THAT(provenance["truth_differs_from_template"].dump(),
+              AllOf(HasSubstr("dual quaternions"), HasSubstr("vertices, the template"),
+                    HasSubstr("diffused over 3 steps in the truth, 0 in the template")));
+  EXPECT_EQ(provenance["scene"], WriteSettings(scene));
+  EXPECT_TRUE(provenance["build"].contains("commit"));
+
+  Record(SmallScene(), temporary / "stay");
+  EXPECT_FALSE(SequenceReader(temporary / "stay").info().provenance.contains("warnings"));
+}
+
+TEST(RecordSequence, RefusesABodyTooNearToTheCameraAndLeavesNothing) {
+  const TemporaryFolder temporary;
+  SceneSettings scene = SmallScene();
+  scene.view.position_m = {2.0, 1.0, 0.1};
+  scene.view.look_at_m = {0.0, 1.0, 0.0};
+  try {
+    Record(scene, temporary / "walk", 1.4);
+    FAIL() << "not refused";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("view.position_m"), HasSubstr("in frame 3")));
+  }
+  EXPECT_TRUE(fs::is_empty(temporary.path()));
+}
+
+// --- Scene files ---------------------------------------------------------------------------------
+
+std::string ProblemOf(const char* overrides) {
+  const Json scene =
+      Merged(Json::parse(R"({"motion": {"file": "walk.json"}})"), Json::parse(overrides));
+  try {
+    ReadSettings<SceneSettings>(scene, {"scene.json", ""});
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SceneSettings, AreChecked) {
+  EXPECT_EQ(ProblemOf("{}"), "");
+  EXPECT_THAT(ProblemOf(R"({"motion": null})"), HasSubstr("motion: missing"));
+  EXPECT_THAT(ProblemOf(R"({"frames": 0})"), HasSubstr("frames"));
+  EXPECT_THAT(ProblemOf(R"({"view": {"position_m": [0, 1, 0.2]}})"),
+              HasSubstr("stands inside the body"));
+  EXPECT_THAT(ProblemOf(R"({"view": {"position_m": [0, 0.95, 0]}})"), HasSubstr("the same point"));
+  EXPECT_THAT(ProblemOf(R"({"view": {"position_m": [0, 3, 0], "look_at_m": [0, 0, 0]}})"),
+              HasSubstr("straight up or down"));
+  EXPECT_THAT(ProblemOf(R"({"view": {"position_m": [0, 1]}})"), HasSubstr("a list of 3 numbers"));
+  EXPECT_THAT(ProblemOf(R"({"truth": {"skinning": "dual"}})"), HasSubstr("dual_quaternion"));
+  EXPECT_THAT(ProblemOf(R"({"truth": {"subdivision": 2}})"),
+              HasSubstr("did you mean \"subdivisions\""));
+}
+
+// Every scene that the project ships is read, and its body stays whole in view throughout.
+TEST(ShippedScenes, KeepTheWholeBodyInView) {
+  const fs::path folder = fs::path(VITRUVIA_SOURCE_DIR) / "configs/scenes";
+  for (const char* name : {"fig11.json", "fig11_hard.json"}) {
+    const SceneSettings scene = ReadSettingsFile<SceneSettings>(folder / name);
+    EXPECT_GE(scene.frames, 300) << name;
+    const ControlBody control = MakeControlBody(scene.body);
+    const BodyModel body = Refine(control, {});
+    const std::unique_ptr<Motion> motion = LoadMotion(scene.motion, body.skeleton);
+    for (int i = 0; i < scene.frames; ++i) {
+      const PosedBody posed = Pose(body, motion->At(i / scene.fps), scene.truth.skinning,
+                                   CameraFromSubject(scene.view));
+      for (const Vector3f& p : posed.vertices) {
+        const Eigen::Vector2f pixel = scene.view.camera.Project(p);
+        ASSERT_TRUE(pixel.x() > 0 && pixel.x() < 319 && pixel.y() > 0 && pixel.y() < 239)
+            << name << ", frame " << i;
+      }
+    }
+  }
+}
+
+TEST(ShippedScenes, AreMadeEndToEnd) {
+  const TemporaryFolder temporary;
+  SceneSettings scene =
+      ReadSettingsFile<SceneSettings>(fs::path(VITRUVIA_SOURCE_DIR) / "configs/scenes/fig11.json");
+  scene.frames = 2;
+  SynthesizeSequence(scene, temporary / "fig11");
+  VerifySequence(temporary / "fig11");
+  const SequenceReader reader(temporary / "fig11");
+  // What the camera sees of a man 1.75 m tall: in the T-pose he is as wide as tall, within a tenth.
+  const DepthImage depth = reader.ReadDepth(0);
+  int left = 320, right = 0, top = 240, bottom = 0;
+  for (int v = 0; v < 240; ++v) {
+    for (int u = 0; u < 320; ++u) {
+      if (depth(u, v) == 0.0f) continue;
+      left = std::min(left, u);
+      right = std::max(right, u);
+      top = std::min(top, v);
+      bottom = std::max(bottom, v);
+    }
+  }
+  const double height_px = 1.75 / 2.75 * 285;
+  EXPECT_NEAR(bottom - top, height_px, 0.05 * height_px);
+  EXPECT_NEAR(right - left, height_px, 0.1 * height_px);
+  EXPECT_NEAR(0.5 * (left + right), 159.5, 1.0);
+}
+
+}  // namespace
+}  // namespace vitruvia
