@@ -19,6 +19,7 @@ int FindBuildId(dl_phdr_info* info, std::size_t, void* result) {
   for (int i = 0; i < info->dlpi_phnum; ++i) {
     const auto& segment = info->dlpi_phdr[i];
     if (segment.p_type != PT_NOTE) continue;
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader states addresses as integers
     const char* note = reinterpret_cast<const char*>(info->dlpi_addr + segment.p_vaddr);
     const char* end = note + segment.p_memsz;
     while (note + sizeof(ElfW(Nhdr)) <= end) {

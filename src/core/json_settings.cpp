@@ -308,6 +308,7 @@ class Writer final : public Fields {
   }
   void Files(const char* key, std::vector<std::filesystem::path>& values, const About&) override {
     std::vector<std::string> texts;
+    texts.reserve(values.size());
     for (const auto& value : values) texts.push_back(value.string());
     Put(key, texts);
   }
