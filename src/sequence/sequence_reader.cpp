@@ -81,7 +81,6 @@ SequenceReader::SequenceReader(fs::path folder) : folder_(std::move(folder)) {
   true_rest_mesh_ = ReadMesh(files.Mesh());
   CheckVerticesSize(files.Vertices(), info_.frames, true_rest_mesh_);
   subject_ = ReadBodyModel(files.Subject());
-  CheckBodyModel(subject_, files.Subject().string());
 }
 
 void SequenceReader::RequireFrame(int frame) const {
