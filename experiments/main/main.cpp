@@ -1,1 +1,3 @@
-int main() { return 0; }
+#include "experiments/commands.h"
+
+int main(int argc, char** argv) { return vitruvia::RunCommandLine(argc, argv); }

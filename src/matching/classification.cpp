@@ -4,32 +4,49 @@
 
 namespace vitruvia {
 
+namespace {
+
+// Whether some pixel within edge_px of (u, v) holds a depth near z.
+bool IsExplained(const DepthImage& depth, int u, int v, float z, const NearnessSettings& nearness) {
+  for (int y = v - nearness.edge_px; y <= v + nearness.edge_px; ++y) {
+    for (int x = u - nearness.edge_px; x <= u + nearness.edge_px; ++x) {
+      if (!depth.Contains(x, y)) continue;
+      const float there = depth(x, y);
+      if (there > 0.0f && std::abs(there - z) < nearness.depth_m) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
 void ClassifyVertices(const std::vector<Vector3f>& vertices, const std::vector<int>& visible,
-                      const DepthImage& captured, const PinholeCamera& camera, float near_m,
-                      VertexClasses& classes) {
+                      const DepthImage& captured, const PinholeCamera& camera,
+                      const NearnessSettings& nearness, VertexClasses& classes) {
   classes.near_surface.clear();
   classes.observed_depth.clear();
   classes.elsewhere.clear();
   for (const int i : visible) {
     const Vector3f& vertex = vertices[i];
     const auto pixel = camera.Project(vertex);
-    const float z = SampleDepth(captured, pixel.x(), pixel.y(), near_m);
-    if (z > 0.0f && std::abs(vertex.z() - z) < near_m) {
+    const float z = SampleDepth(captured, pixel.x(), pixel.y(), nearness.smooth_m);
+    if (z > 0.0f && std::abs(vertex.z() - z) < nearness.depth_m) {
       classes.near_surface.push_back(i);
       classes.observed_depth.push_back(z);
-    } else {
+    } else if (!IsExplained(captured, static_cast<int>(pixel.x() + 0.5f),
+                            static_cast<int>(pixel.y() + 0.5f), vertex.z(), nearness)) {
       classes.elsewhere.push_back(i);
     }
   }
 }
 
-void FindUnexplainedPoints(const PointCloud& cloud, const DepthImage& rendered, float near_m,
-                           std::vector<int>& unexplained) {
+void FindUnexplainedPoints(const PointCloud& cloud, const DepthImage& rendered,
+                           const NearnessSettings& nearness, std::vector<int>& unexplained) {
   unexplained.clear();
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    const float z = rendered.pixels()[static_cast<std::size_t>(cloud.pixels[i])];
-    const bool explained = z > 0.0f && std::abs(cloud.points[i].z() - z) < near_m;
-    if (!explained) unexplained.push_back(static_cast<int>(i));
+    const int u = cloud.pixels[i] % rendered.width(), v = cloud.pixels[i] / rendered.width();
+    if (!IsExplained(rendered, u, v, cloud.points[i].z(), nearness))
+      unexplained.push_back(static_cast<int>(i));
   }
 }
 

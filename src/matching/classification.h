@@ -9,20 +9,29 @@
 
 namespace vitruvia {
 
-// V1: visible vertices near the captured surface at their pixel. V2: the other visible ones.
+// How near is near.
+struct NearnessSettings {
+  float depth_m;  // along z, at the same pixel
+  // Depth jumps at silhouettes, where half a pixel decides between the body and what is behind it.
+  // What is near within this many columns and rows counts as explained, though it is no V1.
+  int edge_px;
+  float smooth_m;  // see SampleDepth
+};
+
+// V1: visible vertices near the captured surface at their pixel. V2: visible vertices that no
+// captured pixel explains.
 struct VertexClasses {
   std::vector<int> near_surface;      // V1: vertex indices
   std::vector<float> observed_depth;  // V1: the captured depth at each one's pixel, metres
   std::vector<int> elsewhere;         // V2: vertex indices
 };
 void ClassifyVertices(const std::vector<Vector3f>& vertices, const std::vector<int>& visible,
-                      const DepthImage& captured, const PinholeCamera& camera, float near_m,
-                      VertexClasses& classes);
+                      const DepthImage& captured, const PinholeCamera& camera,
+                      const NearnessSettings& nearness, VertexClasses& classes);
 
-// P2: indices of the cloud's points that the rendered model does not explain, that is, whose depth
-// differs by near_m or more from the rendered depth at their pixel.
-void FindUnexplainedPoints(const PointCloud& cloud, const DepthImage& rendered, float near_m,
-                           std::vector<int>& unexplained);
+// P2: indices of the cloud's points that the rendered model does not explain.
+void FindUnexplainedPoints(const PointCloud& cloud, const DepthImage& rendered,
+                           const NearnessSettings& nearness, std::vector<int>& unexplained);
 
 // A model vertex and the observed point it should move to.
 struct Pair {

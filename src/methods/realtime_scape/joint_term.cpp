@@ -33,11 +33,16 @@ Matrix4d JointMoment(const Model& model, int bone, int parent) {
 
 }  // namespace
 
-JointTerm::JointTerm(const Model& model) {
+JointTerm::JointTerm(const Model& model, JointRows rows) {
   for (int bone = 0; bone < kBoneCount; ++bone) {
     const int parent = Bones()[bone].parent;
     if (parent < 0) continue;
-    const Eigen::SelfAdjointEigenSolver<Matrix4d> eigen(JointMoment(model, bone, parent));
+    const Matrix4d moment = JointMoment(model, bone, parent);
+    if (rows == JointRows::kMeanPoint) {
+      points_.push_back({bone, parent, moment.col(3).head<3>(), 1.0});
+      continue;
+    }
+    const Eigen::SelfAdjointEigenSolver<Matrix4d> eigen(moment);
     for (int k = 0; k < 4; ++k) {
       const double eigenvalue = eigen.eigenvalues()[k];
       if (eigenvalue <= 0.0) continue;

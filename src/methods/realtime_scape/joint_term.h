@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "methods/realtime_scape/model.h"
+#include "methods/realtime_scape/settings.h"
 #include "solver/block_normal_equations.h"
 
 namespace vitruvia::realtime_scape {
@@ -12,14 +13,16 @@ namespace vitruvia::realtime_scape {
 //
 // The sum over a joint's vertices is a quadratic in (R, T) whose 4×4 moment Σ_i w_ij w_il ṽ_i ṽ_iᵀ
 // is a constant of the rest pose. Its eigenvectors are four virtual points (x, h) that carry
-// exactly the same energy, so the exact term costs four vertices instead of hundreds.
+// exactly the same energy, so the exact term costs four vertices instead of hundreds. The paper's
+// count of 3 rows a joint is the other reading: the vertices' weighted mean alone, which lets the
+// joint turn freely.
 //
 // Readings: τ_jl = Σ_i w_ij w_il over vertices (the paper prints a sum over bones), so each joint's
 // weights sum to 1; each joint counts once; joints are the edges of the bone tree. An edge whose
 // bones share no vertex is held at its joint position.
 class JointTerm {
  public:
-  explicit JointTerm(const Model& model);
+  JointTerm(const Model& model, JointRows rows);
 
   // Adds α₁ times the term, lengths in length units (see fit_term.h). Returns the energy added.
   double Add(const Model& model, const BodyPose& pose, double weight, double length_unit_m,

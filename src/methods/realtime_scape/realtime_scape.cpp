@@ -32,8 +32,12 @@ constexpr std::array<const char*, 4> kEnergyNames = {"fit", "joint", "inertia", 
 }  // namespace
 
 struct RealtimeScape::Session {
-  Session(const Subject& subject, const PinholeCamera& view)
-      : camera(view), model(subject), joint_term(model), zbuffer(view), equations(kBoneCount) {}
+  Session(const Subject& subject, const PinholeCamera& view, const Settings& settings)
+      : camera(view),
+        model(subject),
+        joint_term(model, settings.joint_rows),
+        zbuffer(view),
+        equations(kBoneCount) {}
 
   PinholeCamera camera;
   Model model;
@@ -72,7 +76,7 @@ void RealtimeScape::Start(const Subject& subject, const PinholeCamera& camera) {
   const std::string problem =
       WeightsProblem(subject.weights, subject.rest.vertices.size(), kBoneCount);
   Require(problem.empty(), "Realtime SCAPE cannot use subject {}: {}", subject.name, problem);
-  session_ = std::make_unique<Session>(subject, camera);
+  session_ = std::make_unique<Session>(subject, camera, settings_);
 }
 
 TrackResult RealtimeScape::TrackFrame(const DepthFrame& frame) {
@@ -153,10 +157,11 @@ void RealtimeScape::BuildVisibleTree() {
 // Line 7.
 void RealtimeScape::Classify(const DepthFrame& frame) {
   Session& s = *session_;
-  const auto near_surface = static_cast<float>(settings_.fit.near_surface_m);
-  ClassifyVertices(s.surface.vertices, s.visible, frame.depth, s.camera, near_surface,
-                   s.fit.classes);
-  FindUnexplainedPoints(s.cloud, *s.rendered, near_surface, s.unexplained);
+  const NearnessSettings nearness{static_cast<float>(settings_.fit.near_surface_m),
+                                  settings_.fit.edge_px,
+                                  static_cast<float>(settings_.fit.smooth_m)};
+  ClassifyVertices(s.surface.vertices, s.visible, frame.depth, s.camera, nearness, s.fit.classes);
+  FindUnexplainedPoints(s.cloud, *s.rendered, nearness, s.unexplained);
   s.Lap(kClassify);
 }
 

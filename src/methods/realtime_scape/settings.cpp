@@ -10,7 +10,7 @@ void CloudSettings::Describe(Fields& f) {
              .max = 16,
              .origin = Origin::kPaper,
              .source = "paper A, sec. 6.2: half resolution"});
-  f.Number("max_depth", max_depth_m,
+  f.Number("max_depth_m", max_depth_m,
            {.meaning = "pixels beyond are no measurement of the subject",
             .unit = "m",
             .min = 0.1,
@@ -26,14 +26,14 @@ void FitSettings::Describe(Fields& f) {
                        "surface along its normal",
             .origin = Origin::kTuned,
             .source = "paper A: depth; see the report of realtime_scape/fig11"});
-  f.Number("visible_within", visible_within_m,
+  f.Number("visible_within_m", visible_within_m,
            {.meaning = "a vertex is visible this close to the rendered depth at its pixel",
             .unit = "m",
             .min = 1e-5,
             .max = 1,
             .origin = Origin::kPaper,
             .source = "paper A, sec. 6.2"});
-  f.Number("near_surface", near_surface_m,
+  f.Number("near_surface_m", near_surface_m,
            {.meaning = "a visible vertex this close in depth to the captured pixel is V1, and a "
                        "captured pixel this close to the rendered depth is explained (P1)",
             .unit = "m",
@@ -41,7 +41,23 @@ void FitSettings::Describe(Fields& f) {
             .max = 1,
             .origin = Origin::kTuned,
             .source = "paper A is silent"});
-  f.Number("pair_cutoff", pair_cutoff_m,
+  f.Integer(
+      "edge_px", edge_px,
+      {.meaning =
+           "a vertex or point that is near within this many columns and rows is neither V2 nor P2",
+       .unit = "px",
+       .min = 0,
+       .max = 8,
+       .origin = Origin::kTuned,
+       .source = "paper A: 0; pairs at silhouettes then pull at a model that fits"});
+  f.Number("smooth_m", smooth_m,
+           {.meaning = "captured depth is interpolated between pixels that differ by no more",
+            .unit = "m",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kGuessed,
+            .source = "paper A is silent; 0 takes the nearest pixel"});
+  f.Number("pair_cutoff_m", pair_cutoff_m,
            {.meaning = "V2 and P2 pairs farther apart are dropped",
             .unit = "m",
             .min = 1e-4,
@@ -63,14 +79,14 @@ void FitSettings::Describe(Fields& f) {
 }
 
 void StoppingSettings::Describe(Fields& f) {
-  f.Number("rotation_step", rotation_step_deg,
+  f.Number("rotation_step_deg", rotation_step_deg,
            {.meaning = "stop when every bone turned by less in an iteration",
             .unit = "deg",
             .min = 1e-6,
             .max = 180,
             .origin = Origin::kPaper,
             .source = "paper A, sec. 6.2: ε₁"});
-  f.Number("translation_step", translation_step_m,
+  f.Number("translation_step_m", translation_step_m,
            {.meaning = "and every bone's centre moved by less",
             .unit = "m",
             .min = 1e-9,
@@ -132,6 +148,13 @@ void PlacementSettings::Describe(Fields& f) {
 void Settings::Describe(Fields& f) {
   f.Section("cloud", cloud, {.meaning = "the observed points P"});
   f.Section("fit", fit, {.meaning = "term 1, goodness of fit"});
+  f.Choice(
+      "joint_rows", joint_rows,
+      {{"mean_point", JointRows::kMeanPoint}, {"all_vertices", JointRows::kAllVertices}},
+      {.meaning = "what holds two bones together: the mean of the vertices they share, free to "
+                  "turn, or every such vertex, which also resists bending and twisting",
+       .origin = Origin::kTuned,
+       .source = "paper A, sec. 6.2 counts 3 rows a joint; eq. 7 prints all vertices"});
   f.Number("joint_weight", joint_weight,
            {.meaning = "α₁, keeps neighbouring bones connected",
             .min = 0,
@@ -150,7 +173,7 @@ void Settings::Describe(Fields& f) {
             .max = 1e9,
             .origin = Origin::kPaper,
             .source = "paper A, eq. 7"});
-  f.Number("length_unit", length_unit_m,
+  f.Number("length_unit_m", length_unit_m,
            {.meaning = "the length that counts as 1 where squared lengths are weighed against "
                        "squared rotation entries",
             .unit = "m",

@@ -14,6 +14,12 @@ enum class SurfaceResidual {
            // slide
 };
 
+// How the vertices that two bones share hold the bones together.
+enum class JointRows {
+  kMeanPoint,    // paper's count of rows (3 for a joint): the vertices' weighted mean on both bones
+  kAllVertices,  // eq. 7 as printed: every shared vertex, exactly, through their moments
+};
+
 struct CloudSettings {
   int stride = 2;            // pixels
   double max_depth_m = 8.0;  // metres
@@ -23,8 +29,10 @@ struct CloudSettings {
 struct FitSettings {
   SurfaceResidual surface_residual = SurfaceResidual::kPlane;
   double visible_within_m = 0.002;
-  double near_surface_m = 0.06;
-  double pair_cutoff_m = 0.10;
+  double near_surface_m = 0.03;
+  int edge_px = 1;
+  double smooth_m = 0.02;
+  double pair_cutoff_m = 0.05;
   double surface_weight = 1.0, pair_weight = 1.0;
   void Describe(Fields& fields);
 };
@@ -53,6 +61,7 @@ struct PlacementSettings {
 struct Settings {
   CloudSettings cloud;
   FitSettings fit;
+  JointRows joint_rows = JointRows::kMeanPoint;
   double joint_weight = 10.0;
   double inertia_weight = 5.0;
   double axis_weight = 1.0;

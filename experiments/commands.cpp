@@ -1,0 +1,171 @@
+#include "experiments/commands.h"
+
+#include <algorithm>
+#include <csignal>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "core/build_info.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/progress.h"
+#include "experiments/experiment_config.h"
+#include "experiments/explain.h"
+#include "experiments/runner.h"
+#include "experiments/score.h"
+#include "reports/report.h"
+
+namespace vitruvia {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kExitCodes =
+    "Exit codes: 0 success, 1 internal error, 2 bad configuration or arguments, 3 bad data, "
+    "4 failed run or output not writable, 130 interrupted.";
+
+std::string VersionText() {
+  const BuildInfo& build = GetBuildInfo();
+  return fmt::format(
+      "vitruvia {}\ncommit:    {}\ncompiler:  {}\nbuild:     {}\nflags:     {}\nlibraries: {}",
+      build.version, build.commit, build.compiler, build.build_type, build.flags, build.libraries);
+}
+
+void PrintConfigs(const fs::path& folder) {
+  std::vector<std::string> files;
+  if (fs::is_directory(folder)) {
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+      if (entry.path().extension() == ".json") files.push_back(entry.path().string());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  for (const std::string& file : files) fmt::print("  {}\n", file);
+  if (files.empty()) fmt::print("  none: there is no folder {} here\n", folder.string());
+}
+
+void List() {
+  fmt::print("methods:\n");
+  for (const MethodInfo& method : Methods())
+    fmt::print("  {:<16} {}\n", method.name, method.description);
+  fmt::print("config files:\n");
+  PrintConfigs("configs");
+}
+
+void Synthesize(const fs::path& scene_file, const fs::path& output) {
+  SynthesizeSequence(ReadScene(scene_file), output);
+  fmt::print("{}\n", output.string());
+}
+
+void Verify(const fs::path& folder) {
+  VerifySequence(folder);
+  fmt::print("{}: complete and consistent\n", folder.string());
+}
+
+void Track(const fs::path& method_file, const fs::path& sequence_folder, const fs::path& output) {
+  const MethodConfig method = ReadMethodConfig(ReadJsonFile(method_file), {method_file, ""});
+  const SequenceReader sequence(sequence_folder);
+  TrackSequence(sequence, method, output);
+  RunRecord record;
+  ScoreRun(sequence, EstimateReader(output), record);
+  fmt::print("{}\n", record.summary.dump(2));
+}
+
+void PrintRows(const fs::path& folder, const ExperimentPlan& plan) {
+  fmt::print("{:<52} {:>7} {:>7} {:>10} {:>10} {:>9} {:>8}\n", "run", "frames", "failed",
+             "mean/diag", "max/diag", "<10 cm", "ms");
+  for (const RunPlan& run : plan.runs) {
+    if (!fs::is_regular_file(folder / run.run_id / "record.json")) continue;
+    const Json row = ReadRunRecord(folder, run.run_id).summary;
+    fmt::print("{:<52} {:>7} {:>7} {:>10.6f} {:>10.5f} {:>8.1f}% {:>8.2f}\n", run.run_id,
+               row["frames"].get<int>(), row["frames_failed"].get<int>(),
+               row["l2_mean_of_diagonal"].get<double>(), row["l2_max_of_diagonal"].get<double>(),
+               100.0 * row["joints_within_10cm"].get<double>(),
+               row["frame_ms_median"].get<double>());
+  }
+}
+
+void Run(const fs::path& experiment_file, const fs::path& output) {
+  const ExperimentPlan plan = PlanExperiment(experiment_file);
+  const fs::path folder = output.empty() ? fs::path("out") / plan.record.name : output;
+  const fs::path sequences = output.empty() ? fs::path("out") / "sequences" : folder / "sequences";
+  const ExperimentOutcome outcome = RunExperiment(plan, folder, sequences);
+  PrintRows(folder, plan);
+  fmt::print("{} runs done, {} kept, {} failed\n", outcome.done, outcome.kept, outcome.failed);
+  fmt::print("report: {}\n", WriteReport(folder).string());
+  if (outcome.failed > 0)
+    throw RunError(fmt::format("{} of {} runs failed", outcome.failed, plan.runs.size()));
+}
+
+struct Arguments {
+  fs::path scene, method, experiment, sequence, verified, reported, output;
+  std::string key;
+};
+
+void AddCommands(CLI::App& app, Arguments& a) {
+  app.set_version_flag("--version", VersionText());
+  app.require_subcommand(1);
+  app.footer(kExitCodes);
+
+  app.add_subcommand("list", "List methods and config files")->callback(List);
+
+  CLI::App* synth =
+      app.add_subcommand("synth", "Synthesise a sequence from a scene, or verify one");
+  synth->add_option("SCENE", a.scene, "scene file");
+  synth->add_option("-o,--output", a.output, "folder of the new sequence");
+  synth->add_option("--verify", a.verified, "check this sequence instead of making one");
+  synth->callback([&a] {
+    if (!a.verified.empty()) return Verify(a.verified);
+    if (a.scene.empty() || a.output.empty())
+      throw ConfigError("synth: expected SCENE.json -o DIR, or --verify DIR");
+    Synthesize(a.scene, a.output);
+  });
+
+  CLI::App* track = app.add_subcommand("track", "Track a sequence and score the result");
+  track->add_option("METHOD", a.method, "method file")->required();
+  track->add_option("--sequence", a.sequence, "folder of the sequence")->required();
+  track->add_option("-o,--output", a.output, "folder of the estimate")->required();
+  track->callback([&a] { Track(a.method, a.sequence, a.output); });
+
+  CLI::App* run = app.add_subcommand("run", "Carry out an experiment and write its report");
+  run->add_option("EXPERIMENT", a.experiment, "experiment file")->required();
+  run->add_option("-o,--output", a.output, "the experiment's folder; out/NAME without");
+  run->callback([&a] { Run(a.experiment, a.output); });
+
+  CLI::App* report =
+      app.add_subcommand("report", "Draw an experiment's report again from its records");
+  report->add_option("DIR", a.reported, "the experiment's folder")->required();
+  report->callback([&a] { fmt::print("report: {}\n", WriteReport(a.reported).string()); });
+
+  CLI::App* explain =
+      app.add_subcommand("explain", "Say what a setting means; without KEY list all");
+  explain->add_option("KEY", a.key, "a setting's key or the beginning of one");
+  explain->callback([&a] { fmt::print("{}", Explain(a.key)); });
+}
+
+}  // namespace
+
+int RunCommandLine(int argc, const char* const* argv) {
+  std::signal(SIGINT, [](int) { RequestInterrupt(); });
+  std::signal(SIGTERM, [](int) { RequestInterrupt(); });
+  CLI::App app("Measures how well and how fast a human body can be tracked from one depth camera.",
+               "vitruvia");
+  Arguments arguments;
+  try {
+    AddCommands(app, arguments);
+    app.parse(argc, argv);
+    return static_cast<int>(ExitCode::kSuccess);
+  } catch (const CLI::Success& success) {  // --help, --version
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    app.exit(error);
+    return static_cast<int>(ExitCode::kBadConfiguration);
+  } catch (const Error& error) {
+    fmt::print(stderr, "vitruvia: {}\n", error.what());
+    return static_cast<int>(error.code());
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "vitruvia: internal error: {}\n", error.what());
+    return static_cast<int>(ExitCode::kInternalError);
+  }
+}
+
+}  // namespace vitruvia

@@ -1,0 +1,73 @@
+// An experiment file and the runs that it stands for.
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/json_settings.h"
+#include "methods/registry.h"
+#include "records/run_record.h"
+#include "synth/scene/scene.h"
+
+namespace vitruvia {
+
+// Named overrides (RFC 7386 merge patches) of the scene file and of the method file.
+struct VariantSettings {
+  std::string name;
+  std::string description;
+  Json scene = Json::object();
+  Json method = Json::object();
+
+  void Describe(Fields& fields);
+  std::string Problem() const;
+};
+
+struct ExpectationSettings {
+  std::string metric;
+  double paper = std::numeric_limits<double>::quiet_NaN();
+  double at_most = std::numeric_limits<double>::quiet_NaN();
+  std::string source, remark;
+
+  void Describe(Fields& fields);
+};
+
+struct ExperimentSettings {
+  std::string title, description;
+  std::vector<std::filesystem::path> scenes, methods;
+  std::vector<VariantSettings> variants;  // none: one without overrides, named "default"
+  std::vector<int> seeds{1};
+  std::vector<ExpectationSettings> expectations;
+  std::vector<int> picture_frames{0};
+
+  void Describe(Fields& fields);
+  std::string Problem() const;
+};
+
+// One cell of the grid scenes × methods × variants × seeds, fully resolved.
+struct RunPlan {
+  std::string run_id;  // variant, scene, method, seed and a hash of the resolved config
+  std::string variant, scene, method_name;
+  int seed = 1;
+  SceneSettings scene_settings;
+  MethodConfig method;
+  Json resolved;  // { "scene": …, "method": … }
+};
+
+struct ExperimentPlan {
+  ExperimentRecord record;  // without failures
+  std::vector<RunPlan> runs;
+};
+
+// Reads the experiment and everything it names. Throws ConfigError before anything has run.
+ExperimentPlan PlanExperiment(const std::filesystem::path& experiment_file);
+
+// A scene file, with overrides applied.
+SceneSettings ReadScene(const std::filesystem::path& scene_file,
+                        const Json& overrides = Json::object());
+
+// The file's path below the nearest folder called "configs", without extension; its stem elsewhere.
+std::string ConfigName(const std::filesystem::path& file);
+
+}  // namespace vitruvia

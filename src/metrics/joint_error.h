@@ -1,0 +1,22 @@
+// Joint accuracy, as Stanford EVAL and paper A report it.
+#pragma once
+
+#include <vector>
+
+#include "math/rigid.h"
+
+namespace vitruvia {
+
+// ‖estimate_j − truth_j‖ in metres; infinite where a coordinate is not finite.
+std::vector<double> JointErrors(const std::vector<Vector3<double>>& estimate,
+                                const std::vector<Vector3<double>>& truth);
+
+// Share of the errors that are at most threshold_m; 0 of an empty sample.
+double ShareWithin(const std::vector<double>& errors_m, double threshold_m);
+
+// The share over a whole range of thresholds: 0, step, …, up to and including last.
+std::vector<double> Thresholds(double step_m, double last_m);
+std::vector<double> AccuracyCurve(const std::vector<double>& errors_m,
+                                  const std::vector<double>& thresholds_m);
+
+}  // namespace vitruvia

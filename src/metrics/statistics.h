@@ -1,0 +1,15 @@
+// Order statistics of a sample.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace vitruvia {
+
+// Linear interpolation between order statistics (type 7 of Hyndman & Fan 1996); share in [0, 1].
+// Throws std::invalid_argument on an empty sample.
+double Quantile(std::vector<double> values, double share);
+double Mean(std::span<const double> values);     // 0 of an empty sample
+double Maximum(std::span<const double> values);  // 0 of an empty sample
+
+}  // namespace vitruvia
