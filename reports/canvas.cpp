@@ -1,0 +1,261 @@
+#include "reports/canvas.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <vtkBrush.h>
+#include <vtkContext2D.h>
+#include <vtkContextActor.h>
+#include <vtkContextItem.h>
+#include <vtkContextScene.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkPen.h>
+#include <vtkRect.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkSVGExporter.h>
+#include <vtkStdString.h>
+#include <vtkTextProperty.h>
+
+#include "core/error.h"
+#include "core/files.h"
+
+namespace vitruvia {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double kPngScale = 2.0;  // PNG pixels per page unit
+constexpr int kSupersampling = 2;  // drawn pixels per PNG pixel, in each direction
+constexpr Color kPaper{255, 255, 255};
+
+// Hands VTK's painting over to a function.
+class Drawing : public vtkContextItem {
+ public:
+  static Drawing* New();
+  vtkTypeMacro(Drawing, vtkContextItem)
+
+      bool Paint(vtkContext2D* painter) override {
+    Canvas canvas(*painter, page_height, scale);
+    canvas.Rectangle({0.0, 0.0}, page_width, page_height, kPaper);
+    (*draw)(canvas);
+    pictures = canvas.pictures();
+    return true;
+  }
+
+  const std::function<void(Canvas&)>* draw = nullptr;
+  double page_width = 0.0, page_height = 0.0, scale = 1.0;
+  std::vector<PlacedPicture> pictures;  // of the last painting
+};
+vtkStandardNewMacro(Drawing)
+
+    // A window that shows one drawing.
+    class DrawingWindow {
+ public:
+  DrawingWindow(int width, int height, double scale, const std::function<void(Canvas&)>& draw)
+      : window_(static_cast<int>(width * scale), static_cast<int>(height * scale)) {
+    drawing_->draw = &draw;
+    drawing_->page_width = width;
+    drawing_->page_height = height;
+    drawing_->scale = scale;
+    renderer_->SetBackground(1.0, 1.0, 1.0);
+    renderer_->AddActor(actor_);
+    actor_->GetScene()->SetRenderer(renderer_);
+    actor_->GetScene()->AddItem(drawing_);
+    window_.vtk().AddRenderer(renderer_);
+  }
+
+  ColorImage Pixels() {
+    ColorImage image = window_.DrawAndRead();
+    for (ColorPixel& pixel : image.pixels()) pixel[3] = 255;
+    return image;
+  }
+  const std::vector<PlacedPicture>& pictures() const { return drawing_->pictures; }
+  void ExportSvg(const fs::path& file) {
+    window_.Draw();
+    vtkNew<vtkSVGExporter> exporter;
+    exporter->SetRenderWindow(&window_.vtk());
+    exporter->SetFileName(file.c_str());
+    exporter->SetTextAsPath(true);  // the exporter's text elements are misaligned in browsers
+    exporter->SetTitle("");
+    exporter->SetDescription("");
+    exporter->Write();
+  }
+
+ private:
+  vtkNew<Drawing> drawing_;
+  vtkNew<vtkContextActor> actor_;
+  vtkNew<vtkRenderer> renderer_;
+  OffscreenWindow window_;  // goes first: it frees what the others hold in its context
+};
+
+vtkNew<vtkImageData> ToVtk(const ColorImage& picture) {
+  vtkNew<vtkImageData> data;
+  data->SetDimensions(picture.width(), picture.height(), 1);
+  data->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  for (int v = 0; v < picture.height(); ++v) {
+    auto* row = static_cast<std::uint8_t*>(data->GetScalarPointer(0, picture.height() - 1 - v, 0));
+    for (int u = 0; u < picture.width(); ++u) {
+      for (int c = 0; c < 4; ++c) *row++ = picture(u, v)[c];
+    }
+  }
+  return data;
+}
+
+// Adds to VTK's SVG what it lacks: a view box, without which it does not scale, and the pictures.
+std::string Completed(std::string svg, int width, int height,
+                      const std::vector<PlacedPicture>& pictures) {
+  const std::size_t start = svg.find("<svg "), end = svg.rfind("</svg>");
+  if (start == std::string::npos || end == std::string::npos) {
+    throw RunError("VTK's SVG exporter wrote no whole drawing");
+  }
+  std::string images;
+  for (const PlacedPicture& p : pictures) {
+    images += fmt::format(
+        "<image x=\"{:g}\" y=\"{:g}\" width=\"{:g}\" height=\"{:g}\" xlink:href=\"{}\"/>\n",
+        p.top_left.x, p.top_left.y, p.width, p.height, DataUri(EncodePng(*p.picture)));
+  }
+  svg.insert(end, images);
+  svg.insert(start + 5, fmt::format("viewBox=\"0 0 {} {}\" ", width, height));
+  return svg;
+}
+
+}  // namespace
+
+Canvas::Canvas(vtkContext2D& context, double page_height, double scale)
+    : context_(&context), page_height_(page_height), scale_(scale) {}
+
+void Canvas::SetPen(const Stroke& stroke) {
+  vtkPen* pen = context_->GetPen();
+  pen->SetLineType(vtkPen::SOLID_LINE);
+  pen->SetColor(stroke.color[0], stroke.color[1], stroke.color[2], 255);
+  pen->SetWidth(static_cast<float>(stroke.width * scale_));
+}
+
+void Canvas::Line(Point a, Point b, const Stroke& stroke) { Polyline({a, b}, stroke); }
+
+void Canvas::Polyline(const std::vector<Point>& points, const Stroke& stroke) {
+  SetPen(stroke);
+  std::vector<float> piece;
+  const auto flush = [&] {
+    if (piece.size() >= 4) context_->DrawPoly(piece.data(), static_cast<int>(piece.size() / 2));
+    piece.clear();
+  };
+  const auto add = [&](Point p) { piece.insert(piece.end(), {X(p.x), Y(p.y)}); };
+  if (stroke.dash <= 0.0) {
+    for (const Point& p : points) add(p);
+    flush();
+    return;
+  }
+  // Dashes are cut here, since VTK's two devices cut them differently.
+  double left = stroke.dash;
+  bool drawing = true;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const Point a = points[i], b = points[i + 1];
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    const auto along = [&](double s) {
+      return Point{a.x + (b.x - a.x) * s / length, a.y + (b.y - a.y) * s / length};
+    };
+    if (drawing && piece.empty()) add(a);
+    double done = 0.0;
+    while (length - done > left) {
+      done += left;
+      left = stroke.dash;
+      add(along(done));
+      if (drawing) flush();
+      drawing = !drawing;
+      if (!drawing) piece.clear();
+    }
+    left -= length - done;
+    if (drawing && length > 0.0) add(b);
+  }
+  flush();
+}
+
+void Canvas::Rectangle(Point top_left, double width, double height, Color fill, double opacity) {
+  context_->GetPen()->SetLineType(vtkPen::NO_PEN);
+  context_->GetBrush()->SetColor(fill[0], fill[1], fill[2],
+                                 static_cast<unsigned char>(std::lround(255 * opacity)));
+  context_->DrawRect(X(top_left.x), Y(top_left.y + height), static_cast<float>(width * scale_),
+                     static_cast<float>(height * scale_));
+}
+
+void Canvas::Disc(Point center, double radius, Color fill) {
+  context_->GetPen()->SetLineType(vtkPen::NO_PEN);
+  context_->GetBrush()->SetColor(fill[0], fill[1], fill[2], 255);
+  const auto r = static_cast<float>(radius * scale_);
+  context_->DrawEllipse(X(center.x), Y(center.y), r, r);
+}
+
+void Canvas::Cross(Point center, double radius, const Stroke& stroke) {
+  const double r = radius;
+  Line({center.x - r, center.y - r}, {center.x + r, center.y + r}, stroke);
+  Line({center.x - r, center.y + r}, {center.x + r, center.y - r}, stroke);
+}
+
+void Canvas::SetFont(const TextStyle& style) {
+  vtkTextProperty* font = context_->GetTextProp();
+  font->SetFontFamilyToArial();
+  font->SetFontSize(static_cast<int>(std::lround(style.size * scale_)));
+  font->SetBold(style.bold);
+  font->SetColor(style.color[0] / 255.0, style.color[1] / 255.0, style.color[2] / 255.0);
+  font->SetOrientation(style.direction == Direction::kUpwards ? 90.0 : 0.0);
+  switch (style.anchor) {
+    case Anchor::kStart:
+      font->SetJustificationToLeft();
+      break;
+    case Anchor::kMiddle:
+      font->SetJustificationToCentered();
+      break;
+    case Anchor::kEnd:
+      font->SetJustificationToRight();
+      break;
+  }
+  switch (style.baseline) {
+    case Baseline::kTop:
+      font->SetVerticalJustificationToTop();
+      break;
+    case Baseline::kMiddle:
+      font->SetVerticalJustificationToCentered();
+      break;
+    case Baseline::kBottom:
+      font->SetVerticalJustificationToBottom();
+      break;
+  }
+}
+
+void Canvas::Text(Point at, const std::string& text, const TextStyle& style) {
+  if (text.empty()) return;
+  SetFont(style);
+  context_->DrawString(X(at.x), Y(at.y), text);
+}
+
+double Canvas::TextWidth(const std::string& text, const TextStyle& style) {
+  SetFont(style);
+  float bounds[4];
+  context_->ComputeStringBounds(vtkStdString(text), bounds);
+  return static_cast<double>(bounds[2]) / scale_;
+}
+
+void Canvas::Picture(Point top_left, double width, double height, const ColorImage& picture) {
+  pictures_.push_back({top_left, width, height, &picture});
+  const vtkNew<vtkImageData> data = ToVtk(picture);
+  context_->DrawImage(
+      vtkRectf(X(top_left.x), Y(top_left.y + height), static_cast<float>(width * scale_),
+               static_cast<float>(height * scale_)),
+      data);
+}
+
+void WriteDrawing(const fs::path& stem, int width, int height,
+                  const std::function<void(Canvas&)>& draw) {
+  DrawingWindow large(width, height, kPngScale * kSupersampling, draw);
+  WriteWholeFile(fs::path(stem).concat(".png"), EncodePng(Reduced(large.Pixels(), kSupersampling)));
+  const fs::path svg = fs::path(stem).concat(".svg");
+  DrawingWindow page(width, height, 1.0, draw);
+  page.ExportSvg(svg);
+  if (!fs::exists(svg)) throw RunError(fmt::format("{}: cannot be written", svg.string()));
+  WriteWholeFile(svg, Completed(ReadWholeFile(svg), width, height, page.pictures()));
+}
+
+}  // namespace vitruvia

@@ -1,0 +1,28 @@
+// Colours that stand for numbers, and the palette of the report.
+#pragma once
+
+#include "reports/offscreen.h"
+
+namespace vitruvia {
+
+// Depth as in paper A's figure 7: red is near, blue is far. `share` is 0 at the nearest depth shown
+// and 1 at the farthest; values beyond are held.
+Color DepthColor(double share);
+
+// Error: pale is none, dark red is the scale's end and beyond. Lightness falls steadily, so the
+// order shows in grey and to the colour-blind alike. `share` is error / scale.
+Color ErrorColor(double share);
+
+// Of runs in plots: distinct to the colour-blind (Okabe and Ito's set without its yellow).
+inline constexpr std::array<Color, 7> kRunColors = {{{0x00, 0x72, 0xb2},
+                                                     {0xd5, 0x5e, 0x00},
+                                                     {0x00, 0x9e, 0x73},
+                                                     {0xcc, 0x79, 0xa7},
+                                                     {0xe6, 0x9f, 0x00},
+                                                     {0x56, 0xb4, 0xe9},
+                                                     {0x33, 0x33, 0x33}}};
+inline constexpr Color kEstimateColor{0x5b, 0xa3, 0xd9};
+inline constexpr Color kTruthColor{0xe8, 0x9b, 0x3c};
+inline constexpr Color kFailureColor{0xb0, 0x00, 0x20};
+
+}  // namespace vitruvia

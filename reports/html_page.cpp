@@ -1,0 +1,281 @@
+#include "reports/html_page.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "reports/color_maps.h"
+#include "reports/html_text.h"
+#include "reports/page_assets.h"
+#include "reports/tables.h"
+
+namespace vitruvia {
+namespace {
+
+// Pictures beyond this are left to the files in figures/, so that the page opens on a phone.
+constexpr std::size_t kPictureBudget_bytes = 6'500'000;
+
+std::string VerdictCell(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kMet:
+      return "<td class=\"verdict met\">✓ met</td>";
+    case Verdict::kMissed:
+      return "<td class=\"verdict missed\">✗ missed</td>";
+    case Verdict::kNoResult:
+      return "<td class=\"verdict none\">no result</td>";
+    case Verdict::kNoTarget:
+      break;
+  }
+  return "<td></td>";
+}
+
+std::string Header(const ReportedExperiment& experiment) {
+  const std::size_t finished = experiment.finished().size();
+  const std::size_t absent = experiment.runs.size() - finished;
+  std::string status = fmt::format("{} of {} runs finished", finished, experiment.runs.size());
+  if (absent > 0) status += fmt::format("; <b>{} failed or missing</b>, listed below", absent);
+  return fmt::format(
+      "<header><p class=\"kicker\"><code>{}</code></p><h1>{}</h1><p>{}</p>"
+      "<p class=\"soft\">{}.</p>"
+      "<nav><a href=\"#papers\">Paper and ours</a><a href=\"#plots\">Plots</a>"
+      "<a href=\"#pictures\">Pictures</a><a href=\"#steps\">Time per step</a>"
+      "<a href=\"#runs\">All runs</a><a href=\"#provenance\">Provenance</a></nav></header>\n",
+      Escaped(experiment.record.name), Escaped(experiment.record.title),
+      Escaped(experiment.record.description), status);
+}
+
+std::string ComparisonRows(const Comparison& c) {
+  std::string rows = fmt::format(
+      "<tbody><tr class=\"group\"><th colspan=\"6\" scope=\"rowgroup\">{} <span class=\"soft\">· "
+      "{}</span><small>{}</small></th></tr>\n",
+      Escaped(Titled(c.metric)), Escaped(c.expectation.source), Escaped(c.expectation.remark));
+  for (const ComparedRun& run : c.runs) {
+    rows += fmt::format("<tr><td class=\"run\">{}</td><td class=\"n\">{}</td>", Escaped(run.run_id),
+                        c.paper);
+    rows += run.problem.empty()
+                ? fmt::format("<td class=\"n\">{}</td><td class=\"n\">{}</td>", run.ours,
+                              run.difference)
+                : fmt::format("<td class=\"problem\" colspan=\"2\">{}</td>", Escaped(run.problem));
+    rows += fmt::format("<td class=\"n\">{}</td>{}</tr>\n",
+                        c.target.empty() ? "–" : "≤ " + c.target, VerdictCell(run.verdict));
+  }
+  return rows + "</tbody>\n";
+}
+
+std::string PaperSection(const ReportedExperiment& experiment) {
+  std::string html = "<section id=\"papers\"><h2>Paper and ours</h2>\n";
+  if (experiment.record.expectations.empty()) {
+    return html + "<p>No paper gives numbers for this experiment.</p></section>\n";
+  }
+  html +=
+      "<p>The difference is ours minus the paper’s. The remark under each number says how our work "
+      "differs from the paper’s.</p><div class=\"scroll\"><table><thead><tr><th>run</th>"
+      "<th class=\"n\">paper</th><th class=\"n\">ours</th><th class=\"n\">difference</th>"
+      "<th class=\"n\">target</th><th></th></tr></thead>\n";
+  for (const Comparison& c : CompareWithPapers(experiment)) html += ComparisonRows(c);
+  return html + "</table></div></section>\n";
+}
+
+std::string PlotSection(const std::vector<DrawnFigure>& figures) {
+  std::string html = "<section id=\"plots\"><h2>Plots</h2>\n";
+  if (figures.empty()) html += "<p>No run has finished, so there is nothing to plot.</p>\n";
+  for (const DrawnFigure& figure : figures) {
+    // An SVG inside a page needs no XML header and gets its description from the page.
+    const std::size_t at = figure.svg.find("<svg");
+    html += fmt::format(
+        "<figure class=\"plot\"><figcaption><b>{0}</b>{1}</figcaption><div class=\"scroll\">"
+        "<svg role=\"img\" aria-label=\"{0}\"{2}</div></figure>\n",
+        Escaped(figure.title), Escaped(figure.caption), figure.svg.substr(at + 4));
+  }
+  return html + "</section>\n";
+}
+
+std::string ColorBar(const std::string& label, Color (*color_of)(double),
+                     const std::vector<std::string>& ticks) {
+  constexpr int kStops = 12;
+  std::string stops, marks;
+  for (int i = 0; i <= kStops; ++i)
+    stops += ", " + CssColor(color_of(static_cast<double>(i) / kStops));
+  for (const std::string& tick : ticks) marks += "<b>" + Escaped(tick) + "</b>";
+  return fmt::format(
+      "<div class=\"bar\">{}<i style=\"background:linear-gradient(to right{})\"></i>"
+      "<span>{}</span></div>",
+      Escaped(label), stops, marks);
+}
+
+std::string PictureLegend(const RunPictures& run) {
+  return "<div class=\"bars\">" +
+         ColorBar("depth (m)", DepthColor,
+                  {fmt::format("{:.1f}", run.nearest_m), fmt::format("{:.1f}", run.farthest_m)}) +
+         ColorBar("error (mm)", ErrorColor,
+                  {"0", fmt::format("{:g}", 500.0 * run.error_scale_m),
+                   fmt::format("≥ {:g}", 1000.0 * run.error_scale_m)}) +
+         fmt::format(
+             "<div><span class=\"key\" style=\"background:{}\"></span>reconstruction<br>"
+             "<span class=\"key\" style=\"background:{}\"></span>truth; where both are drawn, the "
+             "nearer shows</div></div>\n",
+             CssColor(kEstimateColor), CssColor(kTruthColor));
+}
+
+std::string StripHtml(const RunPictures& run, const PictureStrip& strip) {
+  std::string cells;
+  for (std::size_t i = 0; i < strip.pictures.size(); ++i) {
+    const std::string& title = PictureTitles()[i];
+    cells += fmt::format(
+        "<figure><img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}, frame {} of {}\">"
+        "<figcaption>{}</figcaption></figure>\n",
+        DataUri(EncodePng(strip.pictures[i])), kPictureSize, kPictureSize, Escaped(title),
+        strip.frame, Escaped(run.run_id), Escaped(title));
+  }
+  return fmt::format(
+      "<div class=\"strip\"><h4>Frame {} <span class=\"soft\">· {:.2f} s · {} · mean error {:.1f} "
+      "mm, "
+      "maximum {:.1f} mm</span></h4><div class=\"cells\">\n{}</div></div>\n",
+      strip.frame, strip.time_s, Escaped(strip.outcome), 1e3 * strip.error_mean_m,
+      1e3 * strip.error_max_m, cells);
+}
+
+std::string PictureSection(const std::vector<RunPictures>& runs) {
+  std::string html = "<section id=\"pictures\"><h2>Pictures</h2>\n";
+  std::size_t used_bytes = 0;
+  for (const RunPictures& run : runs) {
+    html += fmt::format("<h3 class=\"run\">{}</h3>\n", Escaped(run.run_id));
+    if (!run.problem.empty()) {
+      html += fmt::format("<p>No pictures: {}</p>\n", Escaped(run.problem));
+      continue;
+    }
+    std::string strips = PictureLegend(run);
+    for (const PictureStrip& strip : run.strips) strips += StripHtml(run, strip);
+    if (used_bytes + strips.size() > kPictureBudget_bytes) {
+      html += fmt::format(
+          "<p>This run’s pictures are in <code>figures/pictures-{}.png</code>; they would make the "
+          "page too heavy.</p>\n",
+          Escaped(run.run_id));
+      continue;
+    }
+    used_bytes += strips.size();
+    html += strips;
+  }
+  return html + "</section>\n";
+}
+
+std::string StepRows(const RunRecord& run) {
+  const auto number = [](double ms) {
+    return std::isnan(ms) ? std::string("–") : fmt::format("{:.2f}", ms);
+  };
+  std::string rows;
+  const std::vector<StepRow> steps = CompareSteps(run);
+  for (const StepRow& step : steps) {
+    const bool total = &step == &steps.back();
+    rows += fmt::format(
+        "<tr{}><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
+        "<td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
+        total ? " class=\"total\"" : "", Escaped(step.name), number(step.paper_per_iteration_ms),
+        number(step.paper_per_frame_ms), number(step.median_ms), number(step.p95_ms),
+        number(step.max_ms));
+  }
+  return rows;
+}
+
+std::string StepSection(const ReportedExperiment& experiment) {
+  std::string html =
+      "<section id=\"steps\"><h2>Time per step</h2>\n<p>Milliseconds. Ours are per frame, summed "
+      "over the frame’s iterations. Paper A’s table 1 was measured on one 3.4 GHz CPU; its steps 5 "
+      "to "
+      "11 are printed per iteration and stand here times its 3.5 iterations a frame.</p>\n";
+  bool first = true;
+  for (const RunRecord* run : experiment.finished()) {
+    html += fmt::format(
+        "<details{}><summary class=\"run\">{}</summary><div class=\"scroll\"><table><thead><tr>"
+        "<th>step</th><th class=\"n\">paper, per iteration</th><th class=\"n\">paper, per "
+        "frame</th>"
+        "<th class=\"n\">ours, median</th><th class=\"n\">ours, 95th percentile</th>"
+        "<th class=\"n\">ours, "
+        "maximum</th></tr></thead><tbody>\n{}</tbody></table></div></details>\n",
+        first ? " open" : "", Escaped(run->run_id), StepRows(*run));
+    first = false;
+  }
+  return html + "</section>\n";
+}
+
+std::string SummaryCell(const nlohmann::json& cell, const MetricName& column) {
+  const std::string value = cell.is_string() ? cell.get<std::string>() : cell.dump();
+  return fmt::format("<td class=\"{}\"{}>{}</td>",
+                     column.key == "run_id" ? "run"
+                     : cell.is_string()     ? ""
+                                            : "n",
+                     cell.is_null() ? "" : fmt::format(" data-value=\"{}\"", Escaped(value)),
+                     Escaped(PrintedCell(cell, column)));
+}
+
+std::string RunsSection(const ReportedExperiment& experiment) {
+  const SummaryTable table = MakeSummaryTable(experiment);
+  std::string html =
+      "<section id=\"runs\"><h2>All runs</h2><p class=\"soft\">A click on a column’s name sorts by "
+      "it.</p><div class=\"scroll\"><table class=\"sortable\"><thead><tr>";
+  for (const MetricName& column : table.columns) {
+    html += fmt::format("<th><button type=\"button\">{}</button></th>", Escaped(Titled(column)));
+  }
+  html += "</tr></thead><tbody>\n";
+  for (const SummaryTable::Row& row : table.rows) {
+    html += "<tr>";
+    if (row.problem.empty()) {
+      for (std::size_t i = 0; i < row.cells.size(); ++i) {
+        html += SummaryCell(row.cells[i], table.columns[i]);
+      }
+    } else {
+      html += SummaryCell(row.cells.front(), table.columns.front()) +
+              fmt::format("<td class=\"problem\" colspan=\"{}\">{}</td>", row.cells.size() - 1,
+                          Escaped(row.problem));
+    }
+    html += "</tr>\n";
+  }
+  return html + "</tbody></table></div></section>\n";
+}
+
+std::string ProvenanceOf(const RunRecord& run) {
+  std::string items;
+  const auto add = [&](const std::string& key, const nlohmann::json& value) {
+    items += fmt::format("<dt>{}</dt><dd>{}</dd>", Escaped(key),
+                         Escaped(value.is_string() ? value.get<std::string>() : value.dump()));
+  };
+  add("method", run.method);
+  add("scene", run.scene);
+  add("variant", run.variant);
+  add("seed", run.seed);
+  add("sequence", run.sequence_folder.generic_string());
+  add("sequence hash", run.sequence_hash);
+  add("diagonal", fmt::format("{:.4f} m", run.diagonal_m));
+  for (const auto& item : run.provenance.items()) add(item.key(), item.value());
+  return fmt::format(
+      "<details><summary class=\"run\">{}</summary><dl>{}</dl><details><summary>resolved "
+      "configuration</summary><pre>{}</pre></details></details>\n",
+      Escaped(run.run_id), items, Escaped(run.config.dump(2)));
+}
+
+std::string ProvenanceSection(const ReportedExperiment& experiment) {
+  std::string html = "<section id=\"provenance\"><h2>Provenance</h2>\n";
+  for (const RunRecord* run : experiment.finished()) html += ProvenanceOf(*run);
+  return html + "</section>\n";
+}
+
+}  // namespace
+
+std::string MakePage(const ReportedExperiment& experiment, const std::vector<DrawnFigure>& figures,
+                     const std::vector<RunPictures>& pictures) {
+  std::string page = fmt::format(
+      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
+      "<title>{}</title><link rel=\"icon\" href=\"data:,\"><style>{}</style></head><body>\n",
+      Escaped(experiment.record.title), kPageStyle);
+  page += Header(experiment) + "<main>\n";
+  page += PaperSection(experiment);
+  page += PlotSection(figures);
+  page += PictureSection(pictures);
+  page += StepSection(experiment);
+  page += RunsSection(experiment);
+  page += ProvenanceSection(experiment);
+  return page + "</main>\n<script>" + kPageScript + "</script>\n</body></html>\n";
+}
+
+}  // namespace vitruvia

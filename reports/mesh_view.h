@@ -1,0 +1,39 @@
+// Lit meshes seen by a pinhole camera.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "geometry/camera.h"
+#include "geometry/mesh.h"
+#include "reports/offscreen.h"
+
+namespace vitruvia {
+
+struct ShadedMesh {
+  const std::vector<Vector3f>* vertices = nullptr;   // camera frame, metres
+  const std::vector<Triangle>* triangles = nullptr;  // counter-clockwise seen from outside
+  std::vector<Color> colors;                         // one for all, or one per vertex
+};
+
+// A part of the camera's picture, in pixels; it may reach beyond the picture. A pixel's centre has
+// whole coordinates, as with the camera.
+struct PictureWindow {
+  double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
+};
+
+class MeshView {
+ public:
+  MeshView(int width, int height);  // of the pictures, pixels
+  ~MeshView();
+
+  // The meshes as the camera sees them in `part`, transparent where nothing is.
+  ColorImage Draw(const PinholeCamera& camera, const PictureWindow& part,
+                  const std::vector<ShadedMesh>& meshes);
+
+ private:
+  struct Scene;
+  std::unique_ptr<Scene> scene_;
+};
+
+}  // namespace vitruvia

@@ -1,0 +1,78 @@
+// All strips of a run on one sheet.
+#include <fmt/format.h>
+
+#include "reports/canvas.h"
+#include "reports/color_maps.h"
+#include "reports/pictures.h"
+
+namespace vitruvia {
+namespace {
+
+constexpr int kCell = 210, kCellGap = 6, kMarginLeft = 78, kHeader = 50, kFooter = 70;
+constexpr int kBarWidth = 3 * kCell / 2, kBarHeight = 12, kBarSteps = 60;
+
+int SheetWidth() {
+  return kMarginLeft + static_cast<int>(PictureTitles().size()) * (kCell + kCellGap);
+}
+
+void DrawColorBar(Canvas& canvas, Point top_left, Color (*color_of)(double),
+                  const std::string& label, const std::vector<std::string>& ticks) {
+  for (int i = 0; i < kBarSteps; ++i) {
+    const double width = static_cast<double>(kBarWidth) / kBarSteps;
+    canvas.Rectangle({top_left.x + i * width, top_left.y}, width + 0.5, kBarHeight,
+                     color_of((i + 0.5) / kBarSteps));
+  }
+  for (std::size_t i = 0; i < ticks.size(); ++i) {
+    const double x =
+        top_left.x + kBarWidth * static_cast<double>(i) / static_cast<double>(ticks.size() - 1);
+    canvas.Text({x, top_left.y + kBarHeight + 4.0}, ticks[i],
+                {.size = 12.0, .anchor = Anchor::kMiddle, .baseline = Baseline::kTop});
+  }
+  canvas.Text({top_left.x, top_left.y - 5.0}, label, {.size = 12.0, .baseline = Baseline::kBottom});
+}
+
+// Titles in two lines: what is shown, and from where.
+void DrawTitles(Canvas& canvas) {
+  for (std::size_t i = 0; i < PictureTitles().size(); ++i) {
+    const std::string& title = PictureTitles()[i];
+    const std::size_t comma = title.find(", ");
+    const double x = kMarginLeft + static_cast<double>(i) * (kCell + kCellGap) + 0.5 * kCell;
+    canvas.Text({x, 16.0}, title.substr(0, comma),
+                {.size = 14.0, .anchor = Anchor::kMiddle, .bold = true});
+    if (comma == std::string::npos) continue;
+    canvas.Text({x, 36.0}, title.substr(comma + 2), {.size = 12.0, .anchor = Anchor::kMiddle});
+  }
+}
+
+}  // namespace
+
+void WritePictureSheet(const std::filesystem::path& stem, const RunPictures& run) {
+  const int rows = static_cast<int>(run.strips.size());
+  const int height = kHeader + rows * (kCell + kCellGap) + kFooter;
+  WriteDrawing(stem, SheetWidth(), height, [&](Canvas& canvas) {
+    DrawTitles(canvas);
+    for (int row = 0; row < rows; ++row) {
+      const PictureStrip& strip = run.strips[static_cast<std::size_t>(row)];
+      const double top = kHeader + row * (kCell + kCellGap);
+      canvas.Text({8.0, top + 0.5 * kCell - 9.0}, fmt::format("frame {}", strip.frame),
+                  {.size = 12.0, .bold = true});
+      canvas.Text({8.0, top + 0.5 * kCell + 9.0}, fmt::format("{:.2f} s", strip.time_s),
+                  {.size = 12.0});
+      for (std::size_t i = 0; i < strip.pictures.size(); ++i) {
+        canvas.Picture({kMarginLeft + static_cast<double>(i) * (kCell + kCellGap), top}, kCell,
+                       kCell, strip.pictures[i]);
+      }
+    }
+    const double bar_top = height - kFooter + 28.0;
+    DrawColorBar(canvas, {kMarginLeft + 10.0, bar_top}, DepthColor, "depth (m)",
+                 {fmt::format("{:.1f}", run.nearest_m),
+                  fmt::format("{:.2f}", 0.5 * (run.nearest_m + run.farthest_m)),
+                  fmt::format("{:.1f}", run.farthest_m)});
+    DrawColorBar(canvas, {kMarginLeft + 5.0 * (kCell + kCellGap) + 10.0, bar_top}, ErrorColor,
+                 "error (mm)",
+                 {"0", fmt::format("{:g}", 500.0 * run.error_scale_m),
+                  fmt::format("≥ {:g}", 1000.0 * run.error_scale_m)});
+  });
+}
+
+}  // namespace vitruvia

@@ -1,0 +1,317 @@
+#include "reports/pictures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "core/progress.h"
+#include "metrics/vertex_error.h"
+#include "records/estimate.h"
+#include "reports/color_maps.h"
+#include "reports/mesh_view.h"
+#include "sequence/sequence.h"
+
+namespace vitruvia {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double kSideViewTurn_deg = 60.0;  // of the second viewpoint, about the vertical
+constexpr double kMargin = 1.12;            // of a picture over the body in it
+constexpr double kOverlayOpacity = 0.72;    // of the reconstruction over the depth image
+constexpr double kSmallestErrorScale_m = 0.01;
+constexpr double kErrorScaleShare = 0.995;  // of all errors shown lie within the scale
+constexpr Color kNoDepth{0xf4, 0xf4, 0xf4};
+
+struct FrameErrors {
+  int frame = 0;
+  std::vector<double> errors_m;  // per vertex of the estimate
+};
+
+// A run's stored data, opened once.
+struct PictureSource {
+  PictureSource(const fs::path& experiment_folder, const RunRecord& run,
+                const std::vector<int>& frames)
+      : sequence((experiment_folder / run.sequence_folder).lexically_normal()),
+        estimate(experiment_folder / run.run_id / "estimate"),
+        correspondence(estimate.rest_mesh(), sequence.true_rest_mesh()) {
+    const int count = std::min(sequence.info().frames, static_cast<int>(estimate.frames().size()));
+    for (const int frame : frames) {
+      if (frame >= 0 && frame < count) errors.push_back({frame, ErrorsOf(frame)});
+    }
+  }
+
+  std::vector<double> ErrorsOf(int frame) const {
+    return VertexErrors(estimate.ReadVertices(frame),
+                        correspondence.TruePositions(sequence.ReadTrueVertices(frame)));
+  }
+
+  SequenceReader sequence;
+  EstimateReader estimate;
+  RestCorrespondence correspondence;
+  std::vector<FrameErrors> errors;  // of the picture frames
+};
+
+// 1, 2 or 5 times a power of ten, not below `value`.
+double NiceCeiling(double value) {
+  const double magnitude = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * magnitude >= value * (1.0 - 1e-9)) return factor * magnitude;
+  }
+  return 10.0 * magnitude;
+}
+
+double ErrorScale(const std::vector<std::unique_ptr<PictureSource>>& sources) {
+  std::vector<double> all;
+  for (const auto& source : sources) {
+    if (source == nullptr) continue;
+    for (const FrameErrors& frame : source->errors) {
+      all.insert(all.end(), frame.errors_m.begin(), frame.errors_m.end());
+    }
+  }
+  if (all.empty()) return kSmallestErrorScale_m;
+  const auto at =
+      static_cast<std::ptrdiff_t>(kErrorScaleShare * static_cast<double>(all.size() - 1));
+  std::nth_element(all.begin(), all.begin() + at, all.end());
+  return NiceCeiling(std::max(all[static_cast<std::size_t>(at)], kSmallestErrorScale_m));
+}
+
+struct Bounds {
+  double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;  // pixels
+  double extent() const { return std::max(right - left, bottom - top); }
+};
+
+Bounds Projected(const PinholeCamera& camera, const std::vector<Vector3f>& points) {
+  Bounds bounds;
+  for (const Vector3f& point : points) {
+    const Eigen::Vector2d pixel = camera.Project<double>(point.cast<double>());
+    bounds.left = std::min(bounds.left, pixel.x());
+    bounds.right = std::max(bounds.right, pixel.x());
+    bounds.top = std::min(bounds.top, pixel.y());
+    bounds.bottom = std::max(bounds.bottom, pixel.y());
+  }
+  return bounds;
+}
+
+PictureWindow Centered(const Bounds& bounds, double extent) {
+  return {0.5 * (bounds.left + bounds.right - extent), 0.5 * (bounds.top + bounds.bottom - extent),
+          extent, extent};
+}
+
+Vector3f Middle(const std::vector<Vector3f>& points) {
+  Vector3f low = points.front(), high = points.front();
+  for (const Vector3f& point : points) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  return 0.5f * (low + high);
+}
+
+// Turns the body about the camera's vertical through its middle, which shows it as a camera would
+// that walked round it.
+std::vector<Vector3f> Turned(const std::vector<Vector3f>& points, const Vector3f& middle) {
+  const auto angle = static_cast<float>(kSideViewTurn_deg * std::numbers::pi / 180.0);
+  const Rigidf turn = RotationAbout<float>(ExpSo3<float>({0.0f, angle, 0.0f}), middle);
+  std::vector<Vector3f> turned;
+  turned.reserve(points.size());
+  for (const Vector3f& point : points) turned.push_back(turn * point);
+  return turned;
+}
+
+ColorImage OnWhite(ColorImage image) {
+  for (ColorPixel& pixel : image.pixels()) {
+    for (int c = 0; c < 3; ++c) {
+      pixel[c] = static_cast<std::uint8_t>((pixel[c] * pixel[3] + 255 * (255 - pixel[3])) / 255);
+    }
+    pixel[3] = 255;
+  }
+  return image;
+}
+
+ColorImage DepthPicture(const DepthImage& depth, const PictureWindow& part, double nearest_m,
+                        double farthest_m) {
+  ColorImage picture(kPictureSize, kPictureSize);
+  for (int y = 0; y < kPictureSize; ++y) {
+    for (int x = 0; x < kPictureSize; ++x) {
+      const auto pixel_of = [](double start, double extent, int at) {
+        return static_cast<int>(std::floor(start + extent * (at + 0.5) / kPictureSize));
+      };
+      const int u = pixel_of(part.left, part.width, x), v = pixel_of(part.top, part.height, y);
+      Color color = kNoDepth;
+      if (depth.Contains(u, v) && depth(u, v) > 0.0f) {
+        color = DepthColor((depth(u, v) - nearest_m) / (farthest_m - nearest_m));
+      }
+      picture(x, y) = {color[0], color[1], color[2], 255};
+    }
+  }
+  return picture;
+}
+
+ColorImage Over(const ColorImage& front, ColorImage back, double opacity) {
+  for (std::size_t i = 0; i < back.pixels().size(); ++i) {
+    const ColorPixel& f = front.pixels()[i];
+    ColorPixel& b = back.pixels()[i];
+    const double a = opacity * f[3] / 255.0;
+    for (int c = 0; c < 3; ++c) {
+      b[c] = static_cast<std::uint8_t>(std::lround(a * f[c] + (1.0 - a) * b[c]));
+    }
+  }
+  return back;
+}
+
+std::vector<Color> ErrorColors(const std::vector<double>& errors_m, double scale_m) {
+  std::vector<Color> colors;
+  colors.reserve(errors_m.size());
+  for (const double error_m : errors_m) colors.push_back(ErrorColor(error_m / scale_m));
+  return colors;
+}
+
+// The extents in which every strip of a run is shown, so that its pictures have one scale.
+struct Framing {
+  double front = 0.0, side = 0.0;  // pixels of the camera
+};
+
+// Draws a run's strips.
+class StripPainter {
+ public:
+  StripPainter(const PictureSource& source, MeshView& view, RunPictures& run)
+      : source_(source), view_(view), run_(run), camera_(source.sequence.info().camera) {
+    FindFraming();
+    FindDepthRange();
+  }
+
+  PictureStrip Paint(const FrameErrors& frame) {
+    const FrameEstimate& tracked = source_.estimate.frames()[static_cast<std::size_t>(frame.frame)];
+    PictureStrip strip{
+        frame.frame, frame.frame / source_.sequence.info().fps, Name(tracked.outcome), 0.0, 0.0,
+        {}};
+    if (!tracked.message.empty()) strip.outcome += ": " + tracked.message;
+    for (const double error_m : frame.errors_m) {
+      strip.error_mean_m += error_m / static_cast<double>(frame.errors_m.size());
+      strip.error_max_m = std::max(strip.error_max_m, error_m);
+    }
+    PaintPictures(frame, strip.pictures);
+    return strip;
+  }
+
+ private:
+  void PaintPictures(const FrameErrors& frame, std::vector<ColorImage>& pictures) {
+    const auto truth = source_.sequence.ReadTrueVertices(frame.frame);
+    const auto estimate = source_.estimate.ReadVertices(frame.frame);
+    const Vector3f middle = Middle(truth);
+    const auto truth_side = Turned(truth, middle), estimate_side = Turned(estimate, middle);
+    const PictureWindow front = Centered(Projected(camera_, truth), framing_.front);
+    const PictureWindow side = Centered(Projected(camera_, truth_side), framing_.side);
+    const auto& estimate_triangles = source_.estimate.rest_mesh().triangles;
+    const auto& true_triangles = source_.sequence.true_rest_mesh().triangles;
+    const std::vector<Color> errors = ErrorColors(frame.errors_m, run_.error_scale_m);
+    const ShadedMesh shown_truth{&truth_side, &true_triangles, {kTruthColor}};
+    const ShadedMesh shown_estimate{&estimate_side, &estimate_triangles, {kEstimateColor}};
+
+    const ColorImage depth = DepthPicture(source_.sequence.ReadDepth(frame.frame), front,
+                                          run_.nearest_m, run_.farthest_m);
+    const ColorImage seen =
+        view_.Draw(camera_, front, {{&estimate, &estimate_triangles, {kEstimateColor}}});
+    pictures.push_back(depth);
+    pictures.push_back(Over(seen, depth, kOverlayOpacity));
+    pictures.push_back(OnWhite(view_.Draw(camera_, side, {shown_estimate})));
+    pictures.push_back(OnWhite(view_.Draw(camera_, side, {shown_truth})));
+    pictures.push_back(OnWhite(view_.Draw(camera_, side, {shown_truth, shown_estimate})));
+    pictures.push_back(
+        OnWhite(view_.Draw(camera_, front, {{&estimate, &estimate_triangles, errors}})));
+    pictures.push_back(
+        OnWhite(view_.Draw(camera_, side, {{&estimate_side, &estimate_triangles, errors}})));
+  }
+
+  void FindFraming() {
+    for (const FrameErrors& frame : source_.errors) {
+      const auto truth = source_.sequence.ReadTrueVertices(frame.frame);
+      const auto side = Turned(truth, Middle(truth));
+      framing_.front = std::max(framing_.front, kMargin * Projected(camera_, truth).extent());
+      framing_.side = std::max(framing_.side, kMargin * Projected(camera_, side).extent());
+    }
+  }
+
+  // Ends of the depth colours: the measured range in steps of a decimetre.
+  void FindDepthRange() {
+    float nearest = std::numeric_limits<float>::max(), farthest = 0.0f;
+    for (const FrameErrors& frame : source_.errors) {
+      const DepthImage depth = source_.sequence.ReadDepth(frame.frame);
+      for (const float z_m : depth.pixels()) {
+        if (z_m <= 0.0f) continue;
+        nearest = std::min(nearest, z_m);
+        farthest = std::max(farthest, z_m);
+      }
+    }
+    if (farthest == 0.0f) nearest = 0.0f;
+    run_.nearest_m = std::floor(10.0 * nearest) / 10.0;
+    run_.farthest_m = std::max(std::ceil(10.0 * farthest) / 10.0, run_.nearest_m + 0.1);
+  }
+
+  const PictureSource& source_;
+  MeshView& view_;
+  RunPictures& run_;
+  PinholeCamera camera_;
+  Framing framing_;
+};
+
+// Null, and the reason in `problem`, where stored data is gone or damaged: a report can do without
+// its pictures, but must say so.
+std::unique_ptr<PictureSource> Open(const ReportedExperiment& experiment, const RunRecord& run,
+                                    std::string& problem) {
+  try {
+    auto source =
+        std::make_unique<PictureSource>(experiment.folder, run, experiment.record.picture_frames);
+    if (source->errors.empty()) problem = "the run has none of the experiment's picture frames";
+    return source;
+  } catch (const DataError& error) {
+    problem = error.what();
+    return nullptr;
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string>& PictureTitles() {
+  static const std::string turned = fmt::format(", from {:g}° to the side", kSideViewTurn_deg);
+  static const std::vector<std::string> titles = {"depth",
+                                                  "reconstruction over depth",
+                                                  "reconstruction" + turned,
+                                                  "truth" + turned,
+                                                  "both" + turned,
+                                                  "error",
+                                                  "error" + turned};
+  return titles;
+}
+
+std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment) {
+  std::vector<RunPictures> all;
+  std::vector<std::unique_ptr<PictureSource>> sources;
+  int strips = 0;
+  for (const RunRecord* run : experiment.finished()) {
+    RunPictures pictures;
+    pictures.run_id = run->run_id;
+    sources.push_back(Open(experiment, *run, pictures.problem));
+    if (sources.back()) strips += static_cast<int>(sources.back()->errors.size());
+    all.push_back(std::move(pictures));
+  }
+  const double error_scale_m = ErrorScale(sources);
+  MeshView view(kPictureSize, kPictureSize);
+  Progress progress("pictures", strips);
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    if (!all[r].problem.empty()) continue;
+    all[r].error_scale_m = error_scale_m;
+    StripPainter painter(*sources[r], view, all[r]);
+    for (const FrameErrors& frame : sources[r]->errors) {
+      all[r].strips.push_back(painter.Paint(frame));
+      progress.Advance();
+    }
+  }
+  return all;
+}
+
+}  // namespace vitruvia

@@ -1,0 +1,41 @@
+// Picture strips: what the camera saw, what the tracker made of it, and how far that is off.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "reports/experiment_runs.h"
+#include "reports/offscreen.h"
+
+namespace vitruvia {
+
+inline constexpr int kPictureSize = 300;  // pixels, width and height of each picture
+
+struct PictureStrip {
+  int frame = 0;
+  double time_s = 0.0;
+  std::string outcome;  // the tracker's, with its message if it has one
+  double error_mean_m = 0.0, error_max_m = 0.0;
+  std::vector<ColorImage> pictures;  // in the order of PictureTitles()
+};
+
+struct RunPictures {
+  std::string run_id;
+  std::string problem;                       // why there are none; "" when all is well
+  double nearest_m = 0.0, farthest_m = 0.0;  // ends of the depth colours
+  double error_scale_m = 0.0;                // end of the error colours
+  std::vector<PictureStrip> strips;
+};
+
+const std::vector<std::string>& PictureTitles();
+
+// One entry per finished run, at the experiment's picture frames that the run has. The error of a
+// vertex is its distance to the true point that it stands for, which is the closest one in the rest
+// pose that both surfaces share. All runs share one scale of errors, so that their colours compare.
+std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment);
+
+// Writes all strips of a run with their titles and colour bars to `stem`.png and `stem`.svg.
+void WritePictureSheet(const std::filesystem::path& stem, const RunPictures& pictures);
+
+}  // namespace vitruvia

@@ -1,0 +1,51 @@
+#include "reports/report.h"
+
+#include "core/files.h"
+#include "reports/html_page.h"
+#include "reports/pictures.h"
+#include "reports/run_plots.h"
+#include "reports/tables.h"
+
+namespace vitruvia {
+namespace fs = std::filesystem;
+namespace {
+
+std::vector<DrawnFigure> DrawFigures(const std::vector<Figure>& figures, const fs::path& folder) {
+  std::vector<DrawnFigure> drawn;
+  for (const Figure& figure : figures) {
+    const fs::path stem = folder / figure.name;
+    WriteDrawing(stem, kFigureWidth, FigureHeight(figure),
+                 [&](Canvas& canvas) { DrawFigure(canvas, figure); });
+    drawn.push_back(
+        {figure.name, figure.title, figure.caption, ReadWholeFile(fs::path(stem).concat(".svg"))});
+  }
+  return drawn;
+}
+
+void WritePictureSheets(const std::vector<RunPictures>& pictures, const fs::path& folder) {
+  for (const RunPictures& run : pictures) {
+    if (run.strips.empty()) continue;
+    WritePictureSheet(folder / ("pictures-" + run.run_id), run);
+  }
+}
+
+}  // namespace
+
+fs::path WriteReport(const fs::path& experiment_folder) {
+  const ReportedExperiment experiment = ReadExperiment(experiment_folder);
+
+  StagedFolder figures_folder(experiment_folder / "figures", std::string(kSpeedFigure) + ".svg");
+  const std::vector<DrawnFigure> figures =
+      DrawFigures(MakeFigures(experiment), figures_folder.path());
+  const std::vector<RunPictures> pictures = MakePictures(experiment);
+  WritePictureSheets(pictures, figures_folder.path());
+  figures_folder.Commit();
+
+  WriteWholeFile(experiment_folder / "table.csv", ToCsv(experiment));
+  WriteWholeFile(experiment_folder / "table.tex", ToLatex(experiment));
+  const fs::path page = experiment_folder / "report.html";
+  WriteWholeFile(page, MakePage(experiment, figures, pictures));
+  return page;
+}
+
+}  // namespace vitruvia

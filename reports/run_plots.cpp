@@ -1,0 +1,233 @@
+#include "reports/run_plots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "reports/color_maps.h"
+#include "reports/metric_names.h"
+
+namespace vitruvia {
+namespace {
+
+using Runs = std::vector<const RunRecord*>;
+
+constexpr const char* kFrameAxis = "frame (number)";
+
+// Runs that share a plot: of one scene, as many as there are colours.
+struct RunGroup {
+  std::string suffix;  // of file names and titles; "" where all runs are in one group
+  Runs runs;
+};
+
+std::string FileSafe(std::string text) {
+  for (char& c : text) {
+    const bool safe = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_';
+    if (!safe) c = '-';
+  }
+  return text;
+}
+
+std::vector<RunGroup> Grouped(const Runs& runs) {
+  std::vector<RunGroup> groups;
+  std::map<std::string, std::size_t> open;  // scene → its group that is not full
+  std::map<std::string, int> count;
+  for (const RunRecord* run : runs) {
+    const auto found = open.find(run->scene);
+    if (found == open.end() || groups[found->second].runs.size() == kRunColors.size()) {
+      const int number = ++count[run->scene];
+      open[run->scene] = groups.size();
+      groups.push_back({number == 1 ? run->scene : fmt::format("{} {}", run->scene, number), {}});
+    }
+    groups[open[run->scene]].runs.push_back(run);
+  }
+  if (groups.size() == 1) groups.front().suffix.clear();
+  return groups;
+}
+
+const std::vector<double>& SeriesOf(const RunRecord& run, const std::string& key) {
+  const auto found = run.frames.find(key);
+  if (found == run.frames.end()) {
+    throw DataError(fmt::format("run {}: record.json: frames.{}: key missing", run.run_id, key));
+  }
+  return found->second;
+}
+
+double SummaryNumber(const RunRecord& run, const std::string& key) {
+  const auto found = run.summary.find(key);
+  if (found == run.summary.end() || !found->is_number()) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  return found->get<double>();
+}
+
+// One line per run over the frames' numbers; crosses where frames failed.
+std::vector<Series> LinesPerFrame(const Runs& runs, const std::string& key,
+                                  double (*unit_of)(const RunRecord&)) {
+  std::vector<Series> lines;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    Series line;
+    line.name = runs[r]->run_id;
+    line.color = kRunColors[r];
+    const std::vector<double>& values = SeriesOf(*runs[r], key);
+    const std::vector<double>& failed = SeriesOf(*runs[r], "failed");
+    const double unit = unit_of(*runs[r]);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      line.x.push_back(static_cast<double>(i));
+      line.y.push_back(values[i] / unit);
+      if (failed[i] != 0.0) line.failed_x.push_back(static_cast<double>(i));
+    }
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+double One(const RunRecord& /*run*/) { return 1.0; }
+double Diagonal(const RunRecord& run) { return run.diagonal_m; }
+
+double LastFrame(const Runs& runs) {
+  std::size_t frames = 2;
+  for (const RunRecord* run : runs) frames = std::max(frames, SeriesOf(*run, "failed").size());
+  return static_cast<double>(frames - 1);
+}
+
+// What the papers say of a metric, as lines across a plot.
+std::vector<Reference> Published(const ExperimentRecord& experiment, const std::string& metric) {
+  std::vector<Reference> references;
+  for (const Expectation& e : experiment.expectations) {
+    if (e.metric != metric) continue;
+    const MetricName name = NameOfMetric(metric);
+    references.push_back({fmt::format("{}: {:g}{}{}", e.source, e.paper * name.scale,
+                                      name.unit.empty() ? "" : " ", name.unit),
+                          e.paper});
+  }
+  return references;
+}
+
+Figure ErrorFigure(const ExperimentRecord& experiment, const RunGroup& group) {
+  Figure figure;
+  figure.name = "error-per-frame";
+  figure.title = "Error per frame";
+  figure.caption =
+      "Mean and maximum distance between corresponding points of the estimated and the true "
+      "surface, as a fraction of the diagonal of the subject's rest-pose bounding box.";
+  Panel mean{"mean over the surface",
+             kFrameAxis,
+             "L2 error / diagonal",
+             LinesPerFrame(group.runs, "l2_mean_m", Diagonal),
+             Published(experiment, "l2_mean_of_diagonal"),
+             {}};
+  Panel maximum{"maximum over the surface",
+                kFrameAxis,
+                "L2 error / diagonal",
+                LinesPerFrame(group.runs, "l2_max_m", Diagonal),
+                Published(experiment, "l2_max_of_diagonal"),
+                {}};
+  mean.x_end = maximum.x_end = LastFrame(group.runs);
+  figure.panels = {std::move(mean), std::move(maximum)};
+  return figure;
+}
+
+Figure TimeFigure(const ExperimentRecord& experiment, const RunGroup& group) {
+  Figure figure;
+  figure.name = "time-per-frame";
+  figure.title = "Time per frame";
+  figure.caption = "Wall clock round the tracker's step only, without reading, writing or scoring.";
+  Panel panel{"",
+              kFrameAxis,
+              "time per frame (ms)",
+              LinesPerFrame(group.runs, "frame_ms", One),
+              Published(experiment, "frame_ms_median"),
+              {}};
+  panel.x_end = LastFrame(group.runs);
+  figure.panels = {std::move(panel)};
+  return figure;
+}
+
+Figure AccuracyFigure(const ExperimentRecord& /*experiment*/, const RunGroup& group) {
+  Figure figure;
+  figure.name = "joint-accuracy";
+  figure.title = "Joint accuracy";
+  figure.caption =
+      "Share of joints, over all frames, whose estimate lies within the threshold of the truth: "
+      "all joints, those that the camera sees, and those that are hidden from it.";
+  figure.columns = 3;
+  for (const std::string joints : {"all", "visible", "hidden"}) {
+    Panel panel{joints + " joints", "threshold (cm)", "joints within threshold (%)", {}, {}, {}};
+    panel.y_end = 100.0;
+    for (std::size_t r = 0; r < group.runs.size(); ++r) {
+      const RunRecord& run = *group.runs[r];
+      Series line;
+      line.name = run.run_id;
+      line.color = kRunColors[r];
+      const auto found = run.joint_accuracy.find(joints);
+      if (found == run.joint_accuracy.end()) continue;
+      for (std::size_t i = 0; i < run.threshold_m.size(); ++i) {
+        line.x.push_back(1e2 * run.threshold_m[i]);
+        line.y.push_back(1e2 * found->second[i]);
+      }
+      if (!run.threshold_m.empty()) panel.x_end = 1e2 * run.threshold_m.back();
+      panel.series.push_back(std::move(line));
+    }
+    figure.panels.push_back(std::move(panel));
+  }
+  return figure;
+}
+
+Figure SpeedFigure(const ReportedExperiment& experiment) {
+  Figure figure;
+  figure.name = kSpeedFigure;
+  figure.title = "Speed against error";
+  figure.caption =
+      "One point for each run: the median time per frame and the mean error over all frames, "
+      "failed "
+      "ones included. The bar reaches to the 95th percentile of the time. Down and to the left is "
+      "better.";
+  Panel panel{"",
+              "time per frame, median and 95th percentile (ms)",
+              "mean L2 error / diagonal",
+              {},
+              Published(experiment.record, "l2_mean_of_diagonal"),
+              Published(experiment.record, "frame_ms_median")};
+  const Runs runs = experiment.finished();
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    Series point;
+    point.name = runs[r]->run_id;
+    point.color = kRunColors[r % kRunColors.size()];
+    point.mark = Mark::kPoints;
+    point.x = {SummaryNumber(*runs[r], "frame_ms_median")};
+    point.x_reach = {SummaryNumber(*runs[r], "frame_ms_p95")};
+    point.y = {SummaryNumber(*runs[r], "l2_mean_of_diagonal")};
+    panel.series.push_back(std::move(point));
+  }
+  figure.panels = {std::move(panel)};
+  return figure;
+}
+
+}  // namespace
+
+std::vector<Figure> MakeFigures(const ReportedExperiment& experiment) {
+  std::vector<Figure> figures;
+  const std::vector<RunGroup> groups = Grouped(experiment.finished());
+  if (groups.empty()) return figures;
+  const auto add_for_each_group = [&](Figure (*make)(const ExperimentRecord&, const RunGroup&)) {
+    for (const RunGroup& group : groups) {
+      Figure figure = make(experiment.record, group);
+      if (!group.suffix.empty()) {
+        figure.name += "-" + FileSafe(group.suffix);
+        figure.title += ": " + group.suffix;
+      }
+      figures.push_back(std::move(figure));
+    }
+  };
+  add_for_each_group(ErrorFigure);
+  figures.push_back(SpeedFigure(experiment));
+  add_for_each_group(AccuracyFigure);
+  add_for_each_group(TimeFigure);
+  return figures;
+}
+
+}  // namespace vitruvia
