@@ -49,14 +49,14 @@ SkinWeights Sparsified(const Eigen::MatrixXf& dense) {
   std::vector<int> order(dense.cols());
   const int kept = static_cast<int>(std::min<Eigen::Index>(kMaxInfluences, dense.cols()));
   for (Eigen::Index v = 0; v < dense.rows(); ++v) {
+    Require(dense.row(v).allFinite(), "Sparsified: the weights of vertex {} are not finite", v);
     std::iota(order.begin(), order.end(), 0);
     std::partial_sort(order.begin(), order.begin() + kept, order.end(), [&](int a, int b) {
       return dense(v, a) > dense(v, b) || (dense(v, a) == dense(v, b) && a < b);
     });
     double sum = 0.0;
     for (int k = 0; k < kept; ++k) sum += std::max(0.0f, dense(v, order[k]));
-    Require(std::isfinite(sum) && sum > 0.0, "Sparsified: the weights of vertex {} sum to {}", v,
-            sum);
+    Require(sum > 0.0, "Sparsified: the weights of vertex {} sum to {}", v, sum);
     result.bones[v].fill(0);
     result.weights[v].fill(0.0f);
     for (int k = 0; k < kept && dense(v, order[k]) > 0.0f; ++k) {
