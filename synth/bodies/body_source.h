@@ -35,6 +35,9 @@ struct ControlBody {
   Eigen::MatrixXf weights;  // V × kBoneCount, ≥ 0, rows sum to 1; at most 4 non-zero
   Skeleton skeleton;
   BodyAttributes attributes;
+  // The cage's vertices on the source's reference body, which decides for all subjects alike which
+  // vertices a decimated surface keeps; empty: each subject decides for itself.
+  std::vector<Vector3f> reference_vertices;
 };
 
 // DataError if a source's files are missing or damaged; the mannequin needs none.
@@ -44,8 +47,10 @@ ControlBody MakeControlBody(const BodySettings& settings);
 struct RefinementSettings {
   int subdivisions = 0;      // Catmull–Clark steps, of positions and weights alike
   int weight_diffusion = 0;  // steps of averaging each vertex's weights with its neighbours'
+  int target_vertices = 0;   // last, decimation down to that many vertices; 0: all are kept
 
   void Describe(Fields& fields);
+  std::string Problem() const;
 };
 BodyModel Refine(const ControlBody& body, const RefinementSettings& settings);
 

@@ -117,7 +117,8 @@ MakeHumanMeasures Measure(const MakeHumanPackage& package, const std::vector<Vec
 ControlBody MakeMakeHumanBody(const BodySettings& settings) {
   MakeHumanMorph morph(MakeHumanPackage::Read(settings.makehuman_folder));
   const MakeHumanSliders sliders = SliderSearch(morph, settings).Find();
-  TPosedMakeHuman posed = MakeHumanTPose(morph.package()).Apply(morph.Vertices(sliders));
+  const MakeHumanTPose tpose(morph.package());
+  TPosedMakeHuman posed = tpose.Apply(morph.Vertices(sliders));
 
   ControlBody body;
   body.name = fmt::format("makehuman, {}, {:.2f} m, {:.1f} kg",
@@ -127,6 +128,7 @@ ControlBody MakeMakeHumanBody(const BodySettings& settings) {
   body.weights = Dense(MergedWeights(morph.package()), kBoneCount);
   body.skeleton = posed.skeleton;
   body.attributes = {settings.height_m, settings.weight_kg, settings.sex};
+  body.reference_vertices = tpose.Apply(morph.package().vertices).body_vertices;
   return body;
 }
 

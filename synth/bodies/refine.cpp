@@ -1,7 +1,9 @@
-// From a control body to a surface: subdivision, weight diffusion, triangles.
-#include <fmt/format.h>
+// From a control body to a surface: subdivision, triangles, weight diffusion, decimation.
+#include <algorithm>
+#include <functional>
 
 #include "core/error.h"
+#include "geometry/decimation.h"
 #include "geometry/subdivision.h"
 #include "synth/bodies/body_source.h"
 
@@ -39,6 +41,64 @@ Eigen::MatrixXf Diffused(const Eigen::MatrixXf& weights, const std::vector<Trian
   return result;
 }
 
+constexpr int kFewestTargetVertices = 100;  // fewer look like no body
+
+// The surface's vertices and the reference body's side by side: V × 6, so that both are subdivided
+// alike. A body without a reference is its own.
+Eigen::MatrixXf WithReference(const ControlBody& body) {
+  const std::vector<Vector3f>& own = body.cage.vertices;
+  const std::vector<Vector3f>& reference =
+      body.reference_vertices.empty() ? own : body.reference_vertices;
+  Require(reference.size() == own.size(), "Refine: {} reference vertices, expected {}",
+          reference.size(), own.size());
+  Eigen::MatrixXf positions(static_cast<Eigen::Index>(own.size()), 6);
+  for (std::size_t v = 0; v < own.size(); ++v) {
+    positions.row(v) << own[v].transpose(), reference[v].transpose();
+  }
+  return positions;
+}
+
+std::vector<Vector3f> Vertices(const Eigen::MatrixXf& positions, Eigen::Index first_column) {
+  std::vector<Vector3f> vertices(positions.rows());
+  for (Eigen::Index v = 0; v < positions.rows(); ++v) {
+    vertices[v] = positions.block<1, 3>(v, first_column).transpose();
+  }
+  return vertices;
+}
+
+// Keeps the vertices that decimating the reference body keeps.
+void DecimateBody(const std::vector<Vector3f>& reference, int target_vertices, BodyModel& model) {
+  Decimation decimation = Decimate({reference, model.rest.triangles}, target_vertices);
+  // Kept vertices come in ascending order: each moves towards the front.
+  for (std::size_t v = 0; v < decimation.kept.size(); ++v) {
+    const auto old = static_cast<std::size_t>(decimation.kept[v]);
+    model.rest.vertices[v] = model.rest.vertices[old];
+    model.weights.bones[v] = model.weights.bones[old];
+    model.weights.weights[v] = model.weights.weights[old];
+  }
+  model.rest.vertices.resize(decimation.kept.size());
+  model.weights.bones.resize(decimation.kept.size());
+  model.weights.weights.resize(decimation.kept.size());
+  model.rest.triangles = std::move(decimation.triangles);
+}
+
+// Where the fourth and fifth largest weights tie, as those of left and right on the midline do,
+// both go: rounding must not choose a side.
+void DropTiesForLastPlace(Eigen::MatrixXf& weights) {
+  constexpr float kTie = 1e-6f;  // a few roundings of weights up to 1
+  for (Eigen::Index v = 0; v < weights.rows(); ++v) {
+    std::vector<float> sorted(weights.cols());
+    for (Eigen::Index bone = 0; bone < weights.cols(); ++bone) sorted[bone] = weights(v, bone);
+    std::partial_sort(sorted.begin(), sorted.begin() + kMaxInfluences + 1, sorted.end(),
+                      std::greater<>());
+    const float last_kept = sorted[kMaxInfluences - 1], first_dropped = sorted[kMaxInfluences];
+    if (first_dropped == 0.0f || last_kept - first_dropped > kTie) continue;
+    for (Eigen::Index bone = 0; bone < weights.cols(); ++bone) {
+      if (weights(v, bone) <= last_kept + kTie) weights(v, bone) = 0.0f;
+    }
+  }
+}
+
 }  // namespace
 
 void RefinementSettings::Describe(Fields& f) {
@@ -64,10 +124,7 @@ BodyModel Refine(const ControlBody& body, const RefinementSettings& settings) {
   Require(body.weights.rows() == vertex_count && body.weights.cols() == kBoneCount,
           "Refine: weights are {} × {}, expected {} × {}", body.weights.rows(), body.weights.cols(),
           vertex_count, kBoneCount);
-  Eigen::MatrixXf positions(vertex_count, 3), weights = body.weights;
-  for (Eigen::Index v = 0; v < vertex_count; ++v) {
-    positions.row(v) = body.cage.vertices[v].transpose();
-  }
+  Eigen::MatrixXf positions = WithReference(body), weights = body.weights;
   std::vector<Quad> quads = body.cage.quads;
   for (int step = 0; step < settings.subdivisions; ++step) {
     SubdivisionStep finer = CatmullClark(quads, static_cast<int>(positions.rows()));
@@ -81,20 +138,23 @@ BodyModel Refine(const ControlBody& body, const RefinementSettings& settings) {
   model.skeleton = body.skeleton;
   model.attributes = body.attributes;
   model.rest.triangles = SplitQuads(quads);
-  model.rest.vertices.resize(positions.rows());
-  for (Eigen::Index v = 0; v < positions.rows(); ++v) {
-    model.rest.vertices[v] = positions.row(v).transpose();
-  }
+  model.rest.vertices = Vertices(positions, 0);
   for (int step = 0; step < settings.weight_diffusion; ++step) {
     weights = Diffused(weights, model.rest.triangles);
   }
+  DropTiesForLastPlace(weights);
   model.weights = Sparsified(weights);
+  if (settings.target_vertices > 0) {
+    DecimateBody(Vertices(positions, 3), settings.target_vertices, model);
+  }
   return model;
 }
 
 RefinementSettings DefaultTemplateRefinement(BodySource source) {
   RefinementSettings settings;
+  constexpr int kPaperVertices = 6250;
   if (source == BodySource::kMannequin) settings.subdivisions = 2;
+  if (source == BodySource::kMakeHuman) settings.target_vertices = kPaperVertices;
   return settings;
 }
 
