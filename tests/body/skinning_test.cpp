@@ -181,11 +181,11 @@ TEST(Twist, ShrinksLinearlyByTheCosineOfHalfTheAngle) {
   }
 }
 
-// Bones at 170° and 190° meet at 180°, though their quaternions may come with opposite signs; blent
-// without a look at the hemisphere they would meet near 0°.
+// Made from rotation matrices, the quaternions of 230° and 250° have opposite signs; blent without
+// a look at the hemisphere they would meet at 60° instead of 240°.
 TEST(SkinDualQuaternion, BlendsTheShortWay) {
   const std::vector<Vector3f> ring = Ring();
-  for (const double middle : {0.0, 90.0, 180.0, 270.0}) {
+  for (const double middle : {0.0, 60.0, 120.0, 180.0, 240.0, 300.0}) {
     const BoneTransforms bones{TurnAboutX(middle - 10.0), TurnAboutX(middle + 10.0)};
     std::vector<Vector3f> posed;
     SkinDualQuaternion(ring, HalfAndHalf(ring.size()), bones, posed);
