@@ -117,6 +117,19 @@ void RefinementSettings::Describe(Fields& f) {
        .max = 100,
        .origin = Origin::kInput,
        .source = "none: the weights as subdivided"});
+  f.Integer("target_vertices", target_vertices,
+            {.meaning = "last, decimation down to that many vertices, which are a subset of the "
+                        "subdivided surface's and keep their weights; 0 keeps all",
+             .min = 0,
+             .max = 1e6,
+             .origin = Origin::kInput,
+             .source = "none: the mesh as subdivided"});
+}
+
+std::string RefinementSettings::Problem() const {
+  if (target_vertices == 0 || target_vertices >= kFewestTargetVertices) return "";
+  return fmt::format("target_vertices: expected 0 (all) or at least {}, got {}",
+                     kFewestTargetVertices, target_vertices);
 }
 
 BodyModel Refine(const ControlBody& body, const RefinementSettings& settings) {
