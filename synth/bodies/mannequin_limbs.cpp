@@ -144,7 +144,7 @@ constexpr std::array<std::array<double, 3>, kThumbPoints> kThumb_cm{
 
 // Half the distance between the hip joints over stature (guessed after pelvis X-rays).
 constexpr double kHalfHipJoints = 0.050;
-constexpr double kInnerGap_cm = 0.6;  // from the midline to the inner thigh
+constexpr double kInnerGap_cm = 0.3;  // from the midline to the inner thigh
 
 struct LegRingForm {
   double height;  // over stature
@@ -157,7 +157,7 @@ std::array<LegRingForm, kHeel> LegForms(Sex sex) {
   const SurveyTable& survey = Survey(sex);
   const Girth knee = Between(survey.calf, survey.thigh, 0.02);
   return {{
-      {0.452, survey.thigh, {{1.0, 1.02, 0.98, 1, 1, 0.98}, 0.88, 1.12}, 8.8, -1.0},
+      {0.452, survey.thigh, {{0.96, 1.02, 1, 1, 1.02, 0.96}, 0.88, 1.12}, 8.8, -1.0},
       {0.385, Between(survey.thigh, knee, 0.34), {{1, 1, 1, 1, 1.03, 1}, 0.91, 1.09}, 9.0, -0.4},
       {0.318, Between(survey.thigh, knee, 0.88), {{1, 1, 1, 1, 1.03, 1}, 0.96, 1.04}, 9.3, -0.3},
       {0.256, Scaled(knee, 0.90), {{1, 1, 1, 1, 1.03, 1}, 0.97, 1.03}, 9.5, -0.9},
@@ -209,12 +209,23 @@ constexpr double kFootLength_cm = 27.1;      // ANSUR II men, at 1.756 m
 constexpr double kWomansFoot = 24.6 / 27.1;  // ANSUR II
 constexpr double kFootSpread_deg = 6.0;      // toes turn outwards (guessed)
 
-// How far heavy thighs move the legs apart, metres, at the hips; less further down.
+// The share of the hips' spread that the leg has at a height over stature.
+double SpreadShare(double height) {
+  constexpr double kAtAnkle = 0.7;
+  return kAtAnkle + (1.0 - kAtAnkle) * (height - kAnkleHeight) / (kHipHeight - kAnkleHeight);
+}
+
+// How far heavy thighs move the legs apart, metres, at the hips.
 double Spread(Sex sex, double girth_score) {
-  const LegRingForm thigh = LegForms(sex)[kUpperThigh];
-  const Section section = SectionOfGirth(thigh.shape, -150.0, 60.0, At(thigh.girth, girth_score));
-  const double inner = kCentimetre * (thigh.x_cm - kInnerGap_cm) + section.col(0).minCoeff();
-  return std::max(0.0, -inner);
+  const double inner_direction = std::cos(std::numbers::pi / 6.0);  // of ring points 0 and 5
+  double spread = 0.0;
+  for (const LegRingForm& form : LegForms(sex)) {
+    const Section section = SectionOfGirth(form.shape, -150.0, 60.0, At(form.girth, girth_score));
+    const double half_width = -section.col(0).minCoeff() / inner_direction;
+    const double missing = half_width - kCentimetre * (form.x_cm - kInnerGap_cm);
+    spread = std::max(spread, missing / SpreadShare(form.height));
+  }
+  return spread;
 }
 
 }  // namespace
@@ -236,8 +247,10 @@ LegJoints LeftLegJoints(Sex sex, double girth_score) {
   const double foot = (sex == Sex::kMale ? 1.0 : kWomansFoot);
   LegJoints joints;
   joints.hip = {kHalfHipJoints * stature, kHipHeight * stature, 0.0};
-  joints.knee = {kCentimetre * 9.4 + 0.8 * spread, kKneeHeight * stature, -0.003};
-  joints.ankle = {kCentimetre * 10.2 + 0.7 * spread, kAnkleHeight * stature, -0.033};
+  joints.knee = {kCentimetre * 9.4 + SpreadShare(kKneeHeight) * spread, kKneeHeight * stature,
+                 -0.003};
+  joints.ankle = {kCentimetre * 10.2 + SpreadShare(kAnkleHeight) * spread, kAnkleHeight * stature,
+                  -0.033};
   joints.toe_tip = joints.ankle + Vector3d(0.015, -0.04, 0.215) * foot;
   joints.toe_tip.y() = 0.012;
   return joints;
@@ -290,10 +303,10 @@ Eigen::MatrixX3d LegPoints(Sex sex, double girth_score) {
   const auto forms = LegForms(sex);
   for (int r = 0; r < kHeel; ++r) {
     const LegRingForm& form = forms[r];
-    const double share = 0.7 + 0.3 * (form.height - kAnkleHeight) / (kHipHeight - kAnkleHeight);
     const Section section = SectionOfGirth(form.shape, -150.0, 60.0, At(form.girth, girth_score));
     for (int k = 0; k < kRingPoints; ++k) {
-      points.row(kRingPoints * r + k) << kCentimetre * form.x_cm + share * spread + section(k, 0),
+      points.row(kRingPoints * r + k)
+          << kCentimetre * form.x_cm + SpreadShare(form.height) * spread + section(k, 0),
           form.height * survey.stature_m, kCentimetre * form.z_cm + section(k, 1);
     }
   }
