@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/json_settings.h"
 #include "core/progress.h"
+#include "geometry/surface_map.h"
 #include "sequence/sequence.h"
 #include "synth/render/depth_renderer.h"
 
@@ -44,6 +45,40 @@ class ViewWatch {
  private:
   PinholeCamera camera_;
   int frames_ = 0, first_ = 0;
+};
+
+// How far the template, moved by the true bones, is from the truth: what remains for a tracker that
+// finds the true pose.
+class TemplateMisfit {
+ public:
+  TemplateMisfit(const BodyModel& subject, const BodyModel& truth)
+      : subject_(subject),
+        truth_(truth),
+        on_truth_(ClosestSurfacePoints(subject.rest.vertices, truth.rest)) {}
+
+  void Add(const PosedBody& posed_truth) {
+    SkinLinear(subject_.rest.vertices, subject_.weights, posed_truth.camera_from_rest, posed_);
+    for (std::size_t i = 0; i < posed_.size(); ++i) {
+      const Vector3f target =
+          Evaluate(on_truth_[i], posed_truth.vertices.data(), truth_.rest.triangles);
+      const double distance_m = (posed_[i] - target).norm();
+      sum_m_ += distance_m;
+      max_m_ = std::max(max_m_, distance_m);
+    }
+    count_ += posed_.size();
+  }
+
+  Json Summary() const {
+    return {{"l2_mean_m", sum_m_ / static_cast<double>(count_)}, {"l2_max_m", max_m_}};
+  }
+
+ private:
+  const BodyModel& subject_;
+  const BodyModel& truth_;
+  std::vector<SurfacePoint> on_truth_;
+  std::vector<Vector3f> posed_;
+  double sum_m_ = 0.0, max_m_ = 0.0;
+  std::size_t count_ = 0;
 };
 
 // Where the generator and a tracker's model differ: a score says little without it.
@@ -123,6 +158,9 @@ PosedBody Pose(const BodyModel& body, const MotionSample& sample, Skinning skinn
     p = (camera_from_posed * p.cast<double>().eval()).cast<float>();
   }
   for (Vector3d& p : posed.joints) p = camera_from_posed * p;
+  for (const Rigidd& posed_from_rest : bones) {
+    posed.camera_from_rest.push_back(camera_from_posed * posed_from_rest);
+  }
   return posed;
 }
 
@@ -152,6 +190,7 @@ void RecordSequence(const SceneSettings& settings, const BodyModel& truth, const
   SequenceWriter writer(folder, Info(settings, truth, subject), subject, truth.rest);
   DepthRenderer renderer(camera, kNearM, kFarM);
   ViewWatch watch(camera);
+  TemplateMisfit misfit(subject, truth);
   {
     Progress progress("synth " + folder.filename().string(), settings.frames);
     for (int frame = 0; frame < settings.frames; ++frame) {
@@ -159,6 +198,7 @@ void RecordSequence(const SceneSettings& settings, const BodyModel& truth, const
       const PosedBody posed = Pose(truth, sample, settings.truth.skinning, camera_from_subject);
       RequireInRange(posed.vertices, frame);
       watch.Look(posed.vertices, frame);
+      misfit.Add(posed);
       const DepthImage true_depth = renderer.Render(posed.vertices, truth.rest.triangles);
       RandomStream noise(static_cast<std::uint64_t>(settings.seed),
                          fmt::format("sensor/{}", frame));
@@ -167,6 +207,7 @@ void RecordSequence(const SceneSettings& settings, const BodyModel& truth, const
       progress.Advance();
     }
   }
+  writer.Note("template_moved_by_true_bones", misfit.Summary());
   const std::string warning = watch.Warning(settings.frames);
   Warn(warning);
   if (!warning.empty()) writer.Note("warnings", Json::array({warning}));

@@ -110,7 +110,9 @@ TEST(Pose, MovesSurfaceAndJointsIntoTheCameraFrame) {
     ASSERT_LT((posed.vertices[i].cast<double>() - expected).norm(), 1e-6);
   }
   for (int b = 0; b < kBoneCount; ++b) {
-    ASSERT_LT((posed.joints[b] - camera_from_subject * body.skeleton.joints[b]).norm(), 1e-7);
+    const Vector3d& rest = body.skeleton.joints[b];
+    ASSERT_LT((posed.joints[b] - camera_from_subject * rest).norm(), 1e-7);
+    ASSERT_LT((posed.camera_from_rest[b] * rest - posed.joints[b]).norm(), 1e-12);
   }
 }
 
@@ -228,9 +230,22 @@ TEST(RecordSequence, SaysHowTheTruthDiffersAndWhenTheBodyLeaves) {
                     HasSubstr("diffused over 3 steps in the truth, 0 in the template")));
   EXPECT_EQ(provenance["scene"], WriteSettings(scene));
   EXPECT_TRUE(provenance["build"].contains("commit"));
+  // The forearm that dual quaternions turn about the elbow keeps its girth, the template's shrinks.
+  const double misfit_m = provenance["template_moved_by_true_bones"]["l2_max_m"];
+  EXPECT_GT(misfit_m, 0.005);
+  EXPECT_LT(misfit_m, 0.05);
 
   Record(SmallScene(), temporary / "stay");
   EXPECT_FALSE(SequenceReader(temporary / "stay").info().provenance.contains("warnings"));
+}
+
+TEST(RecordSequence, FindsNoMisfitWhereTemplateAndTruthAreOne) {
+  const TemporaryFolder temporary;
+  const BodyModel body = TinyBody(2);
+  RecordSequence(SmallScene(), body, body, RaiseLeftForearm(body.skeleton), temporary / "walk");
+  const Json misfit =
+      SequenceReader(temporary / "walk").info().provenance["template_moved_by_true_bones"];
+  EXPECT_LT(misfit["l2_max_m"].get<double>(), 2e-6);  // rounding of single precision
 }
 
 TEST(RecordSequence, RefusesABodyTooNearToTheCameraAndLeavesNothing) {
