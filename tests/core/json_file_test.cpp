@@ -151,7 +151,7 @@ TEST(Paths, SayWhichVariableIsNotSet) {
       ReadPaths(text.c_str());
       FAIL() << name << " was taken";
     } catch (const ConfigError& error) {
-      EXPECT_EQ(std::string(error.what()), "/etc/configs/one.json: files: $" + name +
+      EXPECT_EQ(std::string(error.what()), "/etc/configs/one.json: files[1]: $" + name +
                                                "/x needs the environment variable " + name +
                                                ", which is not set");
     }
