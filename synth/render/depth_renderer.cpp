@@ -11,6 +11,35 @@ namespace {
 
 constexpr int kDepthBits = 32;
 
+// OSMesa's own functions, asked for by name: a program that also draws with other libraries may
+// hold another set of the same names, and the linker's choice between them is not ours.
+template <class Function>
+Function* Find(const char* name) {
+  auto* function = reinterpret_cast<Function*>(OSMesaGetProcAddress(name));
+  if (function == nullptr) throw RunError(fmt::format("OSMesa: has no {}", name));
+  return function;
+}
+
+struct Gl {
+  decltype(glEnable)* Enable = Find<decltype(glEnable)>("glEnable");
+  decltype(glDisable)* Disable = Find<decltype(glDisable)>("glDisable");
+  decltype(glDepthFunc)* DepthFunc = Find<decltype(glDepthFunc)>("glDepthFunc");
+  decltype(glColorMask)* ColorMask = Find<decltype(glColorMask)>("glColorMask");
+  decltype(glClearDepth)* ClearDepth = Find<decltype(glClearDepth)>("glClearDepth");
+  decltype(glClear)* Clear = Find<decltype(glClear)>("glClear");
+  decltype(glEnableClientState)* EnableClientState =
+      Find<decltype(glEnableClientState)>("glEnableClientState");
+  decltype(glVertexPointer)* VertexPointer = Find<decltype(glVertexPointer)>("glVertexPointer");
+  decltype(glDrawElements)* DrawElements = Find<decltype(glDrawElements)>("glDrawElements");
+  decltype(glViewport)* Viewport = Find<decltype(glViewport)>("glViewport");
+  decltype(glMatrixMode)* MatrixMode = Find<decltype(glMatrixMode)>("glMatrixMode");
+  decltype(glLoadMatrixd)* LoadMatrixd = Find<decltype(glLoadMatrixd)>("glLoadMatrixd");
+  decltype(glLoadIdentity)* LoadIdentity = Find<decltype(glLoadIdentity)>("glLoadIdentity");
+  decltype(glPixelStorei)* PixelStorei = Find<decltype(glPixelStorei)>("glPixelStorei");
+  decltype(glReadPixels)* ReadPixels = Find<decltype(glReadPixels)>("glReadPixels");
+  decltype(glGetError)* GetError = Find<decltype(glGetError)>("glGetError");
+};
+
 // Column-major clip_from_camera. The image's pixel (u, v) has its centre at window coordinates
 // (u + ½, v + ½). Row 0 is the window's lowest row: image rows are kept in memory order, and the
 // picture is never turned over. Window depth runs from 0 at near to 1 at far.
@@ -45,6 +74,7 @@ void RequireDrawable(const std::vector<Vector3f>& vertices,
 struct DepthRenderer::Context {
   PinholeCamera camera;
   double near_m, far_m;
+  Gl gl;
   OSMesaContext mesa = nullptr;
   std::vector<std::uint8_t> colour;  // OSMesa wants somewhere to draw to; never looked at
   std::vector<float> window_depth;
@@ -78,18 +108,19 @@ class Current {
   Current& operator=(const Current&) = delete;
 };
 
-void Draw(const std::vector<Vector3f>& vertices, const std::vector<Triangle>& triangles) {
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LESS);
-  glDisable(GL_CULL_FACE);
-  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  glClearDepth(1.0);
-  glClear(GL_DEPTH_BUFFER_BIT);
+void Draw(const Gl& gl, const std::vector<Vector3f>& vertices,
+          const std::vector<Triangle>& triangles) {
+  gl.Enable(GL_DEPTH_TEST);
+  gl.DepthFunc(GL_LESS);
+  gl.Disable(GL_CULL_FACE);
+  gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  gl.ClearDepth(1.0);
+  gl.Clear(GL_DEPTH_BUFFER_BIT);
   if (triangles.empty()) return;
-  glEnableClientState(GL_VERTEX_ARRAY);
-  glVertexPointer(3, GL_FLOAT, sizeof(Vector3f), vertices.data());
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * triangles.size()), GL_UNSIGNED_INT,
-                 triangles.data());
+  gl.EnableClientState(GL_VERTEX_ARRAY);
+  gl.VertexPointer(3, GL_FLOAT, sizeof(Vector3f), vertices.data());
+  gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * triangles.size()), GL_UNSIGNED_INT,
+                  triangles.data());
 }
 
 }  // namespace
@@ -107,18 +138,19 @@ DepthImage DepthRenderer::Render(const std::vector<Vector3f>& vertices_in_camera
                                  const std::vector<Triangle>& triangles) {
   RequireDrawable(vertices_in_camera, triangles);
   Context& c = *context_;
+  const Gl& gl = c.gl;
   const int width = c.camera.width, height = c.camera.height;
   {
     const Current current(c.mesa, c.colour.data(), width, height);
-    glViewport(0, 0, width, height);
-    glMatrixMode(GL_PROJECTION);
-    glLoadMatrixd(ClipFromCamera(c.camera, c.near_m, c.far_m).data());
-    glMatrixMode(GL_MODELVIEW);
-    glLoadIdentity();
-    Draw(vertices_in_camera, triangles);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, c.window_depth.data());
-    const GLenum error = glGetError();
+    gl.Viewport(0, 0, width, height);
+    gl.MatrixMode(GL_PROJECTION);
+    gl.LoadMatrixd(ClipFromCamera(c.camera, c.near_m, c.far_m).data());
+    gl.MatrixMode(GL_MODELVIEW);
+    gl.LoadIdentity();
+    Draw(gl, vertices_in_camera, triangles);
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    gl.ReadPixels(0, 0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, c.window_depth.data());
+    const GLenum error = gl.GetError();
     if (error != GL_NO_ERROR) {
       throw RunError(fmt::format("OSMesa: drawing failed with GL error {:#x}", error));
     }
