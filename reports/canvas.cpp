@@ -27,7 +27,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kPngScale = 2.0;  // PNG pixels per page unit
-constexpr int kSupersampling = 2;  // drawn pixels per PNG pixel, in each direction
 constexpr Color kPaper{255, 255, 255};
 
 // Hands VTK's painting over to a function.
@@ -50,47 +49,7 @@ class Drawing : public vtkContextItem {
 };
 vtkStandardNewMacro(Drawing)
 
-    // A window that shows one drawing.
-    class DrawingWindow {
- public:
-  DrawingWindow(int width, int height, double scale, const std::function<void(Canvas&)>& draw)
-      : window_(static_cast<int>(width * scale), static_cast<int>(height * scale)) {
-    drawing_->draw = &draw;
-    drawing_->page_width = width;
-    drawing_->page_height = height;
-    drawing_->scale = scale;
-    renderer_->SetBackground(1.0, 1.0, 1.0);
-    renderer_->AddActor(actor_);
-    actor_->GetScene()->SetRenderer(renderer_);
-    actor_->GetScene()->AddItem(drawing_);
-    window_.vtk().AddRenderer(renderer_);
-  }
-
-  ColorImage Pixels() {
-    ColorImage image = window_.DrawAndRead();
-    for (ColorPixel& pixel : image.pixels()) pixel[3] = 255;
-    return image;
-  }
-  const std::vector<PlacedPicture>& pictures() const { return drawing_->pictures; }
-  void ExportSvg(const fs::path& file) {
-    window_.Draw();
-    vtkNew<vtkSVGExporter> exporter;
-    exporter->SetRenderWindow(&window_.vtk());
-    exporter->SetFileName(file.c_str());
-    exporter->SetTextAsPath(true);  // the exporter's text elements are misaligned in browsers
-    exporter->SetTitle("");
-    exporter->SetDescription("");
-    exporter->Write();
-  }
-
- private:
-  vtkNew<Drawing> drawing_;
-  vtkNew<vtkContextActor> actor_;
-  vtkNew<vtkRenderer> renderer_;
-  OffscreenWindow window_;  // goes first: it frees what the others hold in its context
-};
-
-vtkNew<vtkImageData> ToVtk(const ColorImage& picture) {
+    vtkNew<vtkImageData> ToVtk(const ColorImage& picture) {
   vtkNew<vtkImageData> data;
   data->SetDimensions(picture.width(), picture.height(), 1);
   data->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
@@ -247,15 +206,48 @@ void Canvas::Picture(Point top_left, double width, double height, const ColorIma
       data);
 }
 
-void WriteDrawing(const fs::path& stem, int width, int height,
-                  const std::function<void(Canvas&)>& draw) {
-  DrawingWindow large(width, height, kPngScale * kSupersampling, draw);
-  WriteWholeFile(fs::path(stem).concat(".png"), EncodePng(Reduced(large.Pixels(), kSupersampling)));
+struct DrawingWriter::Window {
+  Window() {
+    renderer->AddActor(actor);
+    actor->GetScene()->SetRenderer(renderer);
+    actor->GetScene()->AddItem(drawing);
+    offscreen.vtk().AddRenderer(renderer);
+  }
+  void Show(int width, int height, double scale) {
+    drawing->page_width = width;
+    drawing->page_height = height;
+    drawing->scale = scale;
+    offscreen.Resize(static_cast<int>(width * scale), static_cast<int>(height * scale));
+  }
+  void ExportSvg(const fs::path& file) {
+    vtkNew<vtkSVGExporter> exporter;
+    exporter->SetRenderWindow(&offscreen.vtk());
+    exporter->SetFileName(file.c_str());
+    exporter->SetTextAsPath(true);  // the exporter's text elements are misaligned in browsers
+    exporter->SetTitle("");
+    exporter->SetDescription("");
+    exporter->Write();
+  }
+
+  vtkNew<Drawing> drawing;
+  vtkNew<vtkContextActor> actor;
+  vtkNew<vtkRenderer> renderer;
+  OffscreenWindow offscreen{1, 1};  // goes first: it frees what the others hold in its context
+};
+
+DrawingWriter::DrawingWriter() : window_(std::make_unique<Window>()) {}
+DrawingWriter::~DrawingWriter() = default;
+
+void DrawingWriter::Write(const fs::path& stem, int width, int height,
+                          const std::function<void(Canvas&)>& draw) {
+  window_->drawing->draw = &draw;
+  window_->Show(width, height, kPngScale);
+  WriteWholeFile(fs::path(stem).concat(".png"), EncodePng(window_->offscreen.DrawAndRead()));
   const fs::path svg = fs::path(stem).concat(".svg");
-  DrawingWindow page(width, height, 1.0, draw);
-  page.ExportSvg(svg);
+  window_->Show(width, height, 1.0);
+  window_->ExportSvg(svg);
   if (!fs::exists(svg)) throw RunError(fmt::format("{}: cannot be written", svg.string()));
-  WriteWholeFile(svg, Completed(ReadWholeFile(svg), width, height, page.pictures()));
+  WriteWholeFile(svg, Completed(ReadWholeFile(svg), width, height, window_->drawing->pictures));
 }
 
 }  // namespace vitruvia

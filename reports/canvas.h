@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -75,9 +76,20 @@ class Canvas {
   std::vector<PlacedPicture> pictures_;
 };
 
-// Writes a drawing of width × height page units to `stem`.svg, and to `stem`.png at twice that in
-// pixels. RunError if one cannot be written.
-void WriteDrawing(const std::filesystem::path& stem, int width, int height,
-                  const std::function<void(Canvas&)>& draw);
+// Writes drawings to files. One for many drawings: its OpenGL context and shaders are made once.
+class DrawingWriter {
+ public:
+  DrawingWriter();
+  ~DrawingWriter();
+
+  // A drawing of width × height page units, to `stem`.svg, and to `stem`.png at twice that in
+  // pixels. RunError if one cannot be written.
+  void Write(const std::filesystem::path& stem, int width, int height,
+             const std::function<void(Canvas&)>& draw);
+
+ private:
+  struct Window;
+  std::unique_ptr<Window> window_;
+};
 
 }  // namespace vitruvia

@@ -1,5 +1,7 @@
 #include "reports/mesh_view.h"
 
+#include <algorithm>
+
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
@@ -21,15 +23,14 @@
 namespace vitruvia {
 namespace {
 
-constexpr int kSupersampling = 2;
 constexpr double kNear_m = 0.1, kFar_m = 50.0;
 
 // A skin without gloss: shape shows, and colours that mean a number stay readable.
-constexpr double kAmbient = 0.32, kDiffuse = 0.72;
+constexpr double kAmbient = 0.45, kDiffuse = 0.75;
 
 // OpenGL's projection for the part of the picture (column vectors; eye x right, y up, −z forward).
 vtkNew<vtkMatrix4x4> Projection(const PinholeCamera& camera, const PictureWindow& part) {
-  constexpr double kHalfPixel = 0.5;
+  constexpr double kHalfPixel = 0.5;  // the camera counts from the first pixel's centre
   const double left = (part.left - kHalfPixel - camera.cx) / camera.fx;
   const double right = left + part.width / camera.fx;
   const double top = -(part.top - kHalfPixel - camera.cy) / camera.fy;
@@ -85,20 +86,31 @@ vtkNew<vtkActor> ToActor(const ShadedMesh& mesh) {
   return actor;
 }
 
+// On outlines the black background is mixed into the colours, by as much as it shows through.
+ColorImage WithoutBackground(ColorImage image) {
+  for (ColorPixel& pixel : image.pixels()) {
+    if (pixel[3] == 0) continue;
+    for (int c = 0; c < 3; ++c) {
+      pixel[c] = static_cast<std::uint8_t>(std::min(255, pixel[c] * 255 / pixel[3]));
+    }
+  }
+  return image;
+}
+
 }  // namespace
 
 struct MeshView::Scene {
-  Scene(int width, int height) : window(width * kSupersampling, height * kSupersampling) {
+  Scene(int width, int height) : window(width, height) {
     vtkCamera* camera = renderer->GetActiveCamera();
     camera->SetPosition(0.0, 0.0, 0.0);
     camera->SetFocalPoint(0.0, 0.0, 1.0);
     camera->SetViewUp(0.0, -1.0, 0.0);
     camera->SetUseExplicitProjectionTransformMatrix(true);
     // From over the camera's left shoulder, with a weaker one from the right.
-    AddLight({-0.6, -0.8, -1.0}, 0.8);
+    AddLight({-0.6, -0.8, -1.0}, 0.75);
     AddLight({1.2, 0.1, -0.8}, 0.3);
     renderer->SetAutomaticLightCreation(false);
-    renderer->SetBackground(1.0, 1.0, 1.0);
+    renderer->SetBackground(0.0, 0.0, 0.0);
     renderer->SetBackgroundAlpha(0.0);
     window.vtk().AddRenderer(renderer);
   }
@@ -127,7 +139,7 @@ ColorImage MeshView::Draw(const PinholeCamera& camera, const PictureWindow& part
   for (const ShadedMesh& mesh : meshes) renderer.AddActor(ToActor(mesh));
   renderer.GetActiveCamera()->SetExplicitProjectionTransformMatrix(Projection(camera, part));
   renderer.GetActiveCamera()->SetClippingRange(kNear_m, kFar_m);
-  return Reduced(scene_->window.DrawAndRead(), kSupersampling);
+  return WithoutBackground(scene_->window.DrawAndRead());
 }
 
 }  // namespace vitruvia

@@ -16,8 +16,8 @@ struct ShadedMesh {
   std::vector<Color> colors;                         // one for all, or one per vertex
 };
 
-// A part of the camera's picture, in pixels; it may reach beyond the picture. A pixel's centre has
-// whole coordinates, as with the camera.
+// A part of the camera's picture, in pixels from its top left corner (pixel (u, v) covers u … u + 1
+// and v … v + 1); it may reach beyond the picture.
 struct PictureWindow {
   double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
 };

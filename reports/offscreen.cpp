@@ -1,6 +1,8 @@
 #include "reports/offscreen.h"
 
+#include <cstring>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
 
 #include <GL/osmesa.h>
@@ -40,6 +42,8 @@ const char* glXGetClientString(void* /*display*/, int /*name*/) { return ""; }
 
 namespace vitruvia {
 namespace {
+
+constexpr int kSamples = 4;  // per pixel, for smooth edges; the most that OSMesa offers
 
 // The window asks its host about the context; ours is always there and current.
 void AnswerWindow(vtkObject* /*window*/, unsigned long event, void* /*client*/, void* answer) {
@@ -84,7 +88,7 @@ struct OffscreenWindow::Context {
     }
     window->SetReadyForRendering(true);
     window->SetOwnContext(0);
-    window->SetMultiSamples(0);  // pictures are drawn larger and reduced instead
+    window->SetMultiSamples(kSamples);
     window->SetAlphaBitPlanes(1);
     window->SetSize(width, height);
     window->SetDPI(72);  // one point is one pixel
@@ -113,6 +117,11 @@ OffscreenWindow::~OffscreenWindow() = default;
 
 vtkRenderWindow& OffscreenWindow::vtk() { return *context_->window; }
 
+void OffscreenWindow::Resize(int width, int height) {
+  context_->MakeCurrent();
+  context_->window->SetSize(width, height);
+}
+
 void OffscreenWindow::Draw() {
   context_->MakeCurrent();
   context_->window->Render();
@@ -127,37 +136,10 @@ ColorImage OffscreenWindow::DrawAndRead() {
   context_->window->GetRGBACharPixelData(0, 0, width - 1, height - 1, kBackBuffer, rows);
   ColorImage image(width, height);
   for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u) {
-      const vtkIdType at = 4 * (static_cast<vtkIdType>(height - 1 - v) * width + u);
-      for (int c = 0; c < 4; ++c) image(u, v)[c] = rows->GetValue(at + c);
-    }
+    std::memcpy(&image(0, v), rows->GetPointer(4 * static_cast<vtkIdType>(height - 1 - v) * width),
+                sizeof(ColorPixel) * static_cast<std::size_t>(width));
   }
   return image;
-}
-
-ColorImage Reduced(const ColorImage& image, int factor) {
-  ColorImage reduced(image.width() / factor, image.height() / factor);
-  for (int v = 0; v < reduced.height(); ++v) {
-    for (int u = 0; u < reduced.width(); ++u) {
-      unsigned alpha = 0;
-      std::array<unsigned, 3> color{};
-      for (int dv = 0; dv < factor; ++dv) {
-        for (int du = 0; du < factor; ++du) {
-          const ColorPixel& pixel = image(u * factor + du, v * factor + dv);
-          alpha += pixel[3];
-          for (int c = 0; c < 3; ++c) color[c] += static_cast<unsigned>(pixel[c]) * pixel[3];
-        }
-      }
-      if (alpha == 0) continue;
-      ColorPixel& out = reduced(u, v);
-      for (int c = 0; c < 3; ++c) {
-        out[c] = static_cast<std::uint8_t>((color[c] + alpha / 2) / alpha);
-      }
-      const unsigned count = static_cast<unsigned>(factor) * factor;
-      out[3] = static_cast<std::uint8_t>((alpha + count / 2) / count);
-    }
-  }
-  return reduced;
 }
 
 std::string EncodePng(const ColorImage& image) {
@@ -173,10 +155,10 @@ std::string EncodePng(const ColorImage& image) {
       for (int c = 0; c < channels; ++c) *row++ = image(u, v)[c];
     }
   }
-  constexpr int kSmallest = 9;
+  constexpr int kCompression = 7;  // 0 … 9; beyond, files hardly shrink
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputData(data);
-  writer->SetCompressionLevel(kSmallest);
+  writer->SetCompressionLevel(kCompression);
   writer->SetWriteToMemory(true);
   writer->Write();
   vtkUnsignedCharArray* result = writer->GetResult();

@@ -24,6 +24,7 @@ class OffscreenWindow {
   OffscreenWindow& operator=(const OffscreenWindow&) = delete;
 
   vtkRenderWindow& vtk();
+  void Resize(int width, int height);
   // Makes the window's context the current one (another part of the program may have taken its
   // place) and draws.
   void Draw();
@@ -33,9 +34,6 @@ class OffscreenWindow {
   struct Context;
   std::unique_ptr<Context> context_;
 };
-
-// The mean of factor × factor pixels; colours weigh as much as they cover.
-ColorImage Reduced(const ColorImage& image, int factor);
 
 std::string EncodePng(const ColorImage& image);
 std::string DataUri(const std::string& png);  // base64

@@ -1,7 +1,6 @@
 // All strips of a run on one sheet.
 #include <fmt/format.h>
 
-#include "reports/canvas.h"
 #include "reports/color_maps.h"
 #include "reports/pictures.h"
 
@@ -46,10 +45,11 @@ void DrawTitles(Canvas& canvas) {
 
 }  // namespace
 
-void WritePictureSheet(const std::filesystem::path& stem, const RunPictures& run) {
+void WritePictureSheet(DrawingWriter& writer, const std::filesystem::path& stem,
+                       const RunPictures& run) {
   const int rows = static_cast<int>(run.strips.size());
   const int height = kHeader + rows * (kCell + kCellGap) + kFooter;
-  WriteDrawing(stem, SheetWidth(), height, [&](Canvas& canvas) {
+  writer.Write(stem, SheetWidth(), height, [&](Canvas& canvas) {
     DrawTitles(canvas);
     for (int row = 0; row < rows; ++row) {
       const PictureStrip& strip = run.strips[static_cast<std::size_t>(row)];

@@ -300,6 +300,7 @@ std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment) {
     all.push_back(std::move(pictures));
   }
   const double error_scale_m = ErrorScale(sources);
+  if (strips == 0) return all;
   MeshView view(kPictureSize, kPictureSize);
   Progress progress("pictures", strips);
   for (std::size_t r = 0; r < all.size(); ++r) {

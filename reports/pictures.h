@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "reports/canvas.h"
 #include "reports/experiment_runs.h"
-#include "reports/offscreen.h"
 
 namespace vitruvia {
 
@@ -36,6 +36,7 @@ const std::vector<std::string>& PictureTitles();
 std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment);
 
 // Writes all strips of a run with their titles and colour bars to `stem`.png and `stem`.svg.
-void WritePictureSheet(const std::filesystem::path& stem, const RunPictures& pictures);
+void WritePictureSheet(DrawingWriter& writer, const std::filesystem::path& stem,
+                       const RunPictures& pictures);
 
 }  // namespace vitruvia

@@ -158,28 +158,24 @@ void DrawAxes(Canvas& canvas, const Panel& panel, const PanelFrame& frame) {
               {.anchor = Anchor::kMiddle, .direction = Direction::kUpwards});
 }
 
+// Lines across, and what they are above the panel, where no curve runs.
 void DrawReferences(Canvas& canvas, const Panel& panel, const PanelFrame& frame) {
   const Stroke stroke{kReferenceInk, 1.2, kReferenceDash};
+  std::string note;
   for (const Reference& r : panel.y_references) {
-    const double y = frame.Y(r.value);
-    canvas.Line({frame.left(), y}, {frame.right(), y}, stroke);
-    // Under the line where the panel has no room above it.
-    const bool below = y - frame.top() < 18.0;
-    canvas.Text({frame.right() - 4.0, below ? y + 3.0 : y - 3.0}, r.label,
-                {.size = 12.0,
-                 .color = kReferenceInk,
-                 .anchor = Anchor::kEnd,
-                 .baseline = below ? Baseline::kTop : Baseline::kBottom});
+    canvas.Line({frame.left(), frame.Y(r.value)}, {frame.right(), frame.Y(r.value)}, stroke);
+    note += (note.empty() ? "" : "; ") + r.label;
   }
   for (const Reference& r : panel.x_references) {
-    const double x = frame.X(r.value);
-    canvas.Line({x, frame.top()}, {x, frame.bottom()}, stroke);
-    canvas.Text({x, frame.top() - 2.0}, r.label,
-                {.size = 12.0,
-                 .color = kReferenceInk,
-                 .anchor = Anchor::kMiddle,
-                 .baseline = Baseline::kBottom});
+    canvas.Line({frame.X(r.value), frame.top()}, {frame.X(r.value), frame.bottom()}, stroke);
+    note += (note.empty() ? "" : "; ") + r.label;
   }
+  if (note.empty()) return;
+  const TextStyle style{.size = 12.0, .color = kReferenceInk, .anchor = Anchor::kEnd};
+  const double y = frame.top() - 12.0;
+  const double start = frame.right() - canvas.TextWidth(note, style) - 8.0;
+  canvas.Text({frame.right(), y}, note, style);
+  canvas.Line({start - 22.0, y}, {start, y}, stroke);
 }
 
 void DrawLine(Canvas& canvas, const Series& series, const PanelFrame& frame) {
@@ -217,6 +213,12 @@ void DrawPanel(Canvas& canvas, const Panel& panel, Point top_left, double width,
   const PanelFrame frame(panel, top_left, width, height);
   DrawAxes(canvas, panel, frame);
   DrawReferences(canvas, panel, frame);
+  bool any = false;
+  for (const Series& series : panel.series) any = any || LargestFinite(-1.0, series.y) >= 0.0;
+  if (!any) {
+    canvas.Text({0.5 * (frame.left() + frame.right()), 0.5 * (frame.top() + frame.bottom())},
+                "no data", {.color = kReferenceInk, .anchor = Anchor::kMiddle});
+  }
   int failure_row = 0;
   for (const Series& series : panel.series) {
     if (series.mark == Mark::kLine) DrawLine(canvas, series, frame);

@@ -10,11 +10,12 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
-std::vector<DrawnFigure> DrawFigures(const std::vector<Figure>& figures, const fs::path& folder) {
+std::vector<DrawnFigure> DrawFigures(DrawingWriter& writer, const std::vector<Figure>& figures,
+                                     const fs::path& folder) {
   std::vector<DrawnFigure> drawn;
   for (const Figure& figure : figures) {
     const fs::path stem = folder / figure.name;
-    WriteDrawing(stem, kFigureWidth, FigureHeight(figure),
+    writer.Write(stem, kFigureWidth, FigureHeight(figure),
                  [&](Canvas& canvas) { DrawFigure(canvas, figure); });
     drawn.push_back(
         {figure.name, figure.title, figure.caption, ReadWholeFile(fs::path(stem).concat(".svg"))});
@@ -22,10 +23,11 @@ std::vector<DrawnFigure> DrawFigures(const std::vector<Figure>& figures, const f
   return drawn;
 }
 
-void WritePictureSheets(const std::vector<RunPictures>& pictures, const fs::path& folder) {
+void WritePictureSheets(DrawingWriter& writer, const std::vector<RunPictures>& pictures,
+                        const fs::path& folder) {
   for (const RunPictures& run : pictures) {
     if (run.strips.empty()) continue;
-    WritePictureSheet(folder / ("pictures-" + run.run_id), run);
+    WritePictureSheet(writer, folder / ("pictures-" + run.run_id), run);
   }
 }
 
@@ -34,11 +36,12 @@ void WritePictureSheets(const std::vector<RunPictures>& pictures, const fs::path
 fs::path WriteReport(const fs::path& experiment_folder) {
   const ReportedExperiment experiment = ReadExperiment(experiment_folder);
 
+  DrawingWriter writer;
   StagedFolder figures_folder(experiment_folder / "figures", std::string(kSpeedFigure) + ".svg");
   const std::vector<DrawnFigure> figures =
-      DrawFigures(MakeFigures(experiment), figures_folder.path());
+      DrawFigures(writer, MakeFigures(experiment), figures_folder.path());
   const std::vector<RunPictures> pictures = MakePictures(experiment);
-  WritePictureSheets(pictures, figures_folder.path());
+  WritePictureSheets(writer, pictures, figures_folder.path());
   figures_folder.Commit();
 
   WriteWholeFile(experiment_folder / "table.csv", ToCsv(experiment));
