@@ -15,7 +15,7 @@ float WeightOf(const Model& model, int vertex, int bone) {
   return 0.0f;
 }
 
-// Σ_i w_ij w_il / τ_jl ṽ_i ṽ_iᵀ.
+// Σ_i w_ij w_il / τ_jl ṽ_i ṽ_iᵀ; of the joint's position where the bones share no vertex.
 Matrix4d JointMoment(const Model& model, int bone, int parent) {
   Matrix4d moment = Matrix4d::Zero();
   for (std::size_t i = 0; i < model.rest_vertices.size(); ++i) {
@@ -37,6 +37,10 @@ JointTerm::JointTerm(const Model& model, JointRows rows) {
   for (int bone = 0; bone < kBoneCount; ++bone) {
     const int parent = Bones()[bone].parent;
     if (parent < 0) continue;
+    if (rows == JointRows::kJointPosition) {
+      points_.push_back({bone, parent, model.skeleton.joints[bone], 1.0});
+      continue;
+    }
     const Matrix4d moment = JointMoment(model, bone, parent);
     if (rows == JointRows::kMeanPoint) {
       points_.push_back({bone, parent, moment.col(3).head<3>(), 1.0});

@@ -16,6 +16,7 @@ enum class SurfaceResidual {
 
 // How the vertices that two bones share hold the bones together.
 enum class JointRows {
+  kJointPosition,  // 3 rows for a joint: where the subject's skeleton has it
   kMeanPoint,    // paper's count of rows (3 for a joint): the vertices' weighted mean on both bones
   kAllVertices,  // eq. 7 as printed: every shared vertex, exactly, through their moments
 };
@@ -29,17 +30,17 @@ struct CloudSettings {
 struct FitSettings {
   SurfaceResidual surface_residual = SurfaceResidual::kPlane;
   double visible_within_m = 0.002;
-  double near_surface_m = 0.03;
+  double near_surface_m = 0.05;
   int edge_px = 1;
   double smooth_m = 0.02;
-  double pair_cutoff_m = 0.05;
+  double pair_cutoff_m = 0.08;
   double surface_weight = 1.0, pair_weight = 1.0;
   void Describe(Fields& fields);
 };
 
 struct StoppingSettings {
-  double rotation_step_deg = 5.0;
-  double translation_step_m = 0.025;
+  double rotation_step_deg = 1.0;
+  double translation_step_m = 0.005;
   int max_iterations = 7;
   int first_frame_iterations = 30;
   void Describe(Fields& fields);
@@ -61,11 +62,11 @@ struct PlacementSettings {
 struct Settings {
   CloudSettings cloud;
   FitSettings fit;
-  JointRows joint_rows = JointRows::kMeanPoint;
+  JointRows joint_rows = JointRows::kJointPosition;
   double joint_weight = 10.0;
   double inertia_weight = 5.0;
   double axis_weight = 1.0;
-  double length_unit_m = 0.01;
+  double length_unit_m = 0.05;
   StoppingSettings stopping;
   SolverSettings solver;
   PlacementSettings placement;
