@@ -164,21 +164,27 @@ PosedBody Pose(const BodyModel& body, const MotionSample& sample, Skinning skinn
   return posed;
 }
 
+bool SeesJoint(const Vector3d& joint_in_camera, double below_skin_m, const DepthImage& depth,
+               const PinholeCamera& camera) {
+  if (joint_in_camera.z() <= 0.0) return false;
+  const Eigen::Vector2d pixel = camera.Project(joint_in_camera);
+  // Rounded as numbers first: far outside the image they do not fit an int.
+  const double u = std::round(pixel.x()), v = std::round(pixel.y());
+  if (!(u >= 0.0 && v >= 0.0 && u < camera.width && v < camera.height)) return false;
+  const float skin = depth(static_cast<int>(u), static_cast<int>(v));
+  return skin == 0.0f || joint_in_camera.z() - skin <= below_skin_m;
+}
+
 std::vector<bool> VisibleJoints(const std::vector<Vector3d>& joints_in_camera,
                                 const DepthImage& depth, const PinholeCamera& camera) {
   std::vector<bool> visible;
-  for (const Vector3d& joint : joints_in_camera) {
-    bool seen = false;
-    if (joint.z() > 0.0) {
-      const Eigen::Vector2d pixel = camera.Project(joint);
-      // Rounded as numbers first: far outside the image they do not fit an int.
-      const double u = std::round(pixel.x()), v = std::round(pixel.y());
-      if (u >= 0.0 && v >= 0.0 && u < camera.width && v < camera.height) {
-        const float skin = depth(static_cast<int>(u), static_cast<int>(v));
-        seen = skin == 0.0f || joint.z() - skin <= kJointBelowSkinM;
-      }
-    }
-    visible.push_back(seen);
+  for (std::size_t i = 0; i < joints_in_camera.size(); ++i) {
+    const auto bone = static_cast<BoneId>(i);
+    const bool in_trunk =
+        bone == BoneId::kPelvis || bone == BoneId::kAbdomen || bone == BoneId::kChest;
+    visible.push_back(SeesJoint(joints_in_camera[i],
+                                in_trunk ? kTrunkJointBelowSkinM : kLimbJointBelowSkinM, depth,
+                                camera));
   }
   return visible;
 }

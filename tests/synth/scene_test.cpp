@@ -116,16 +116,30 @@ TEST(Pose, MovesSurfaceAndJointsIntoTheCameraFrame) {
   }
 }
 
-TEST(VisibleJoints, AreInTheImageAndNotBehindOtherThings) {
+TEST(SeesJoint, InTheImageAndNotBehindOtherThings) {
   const PinholeCamera camera;
   DepthImage depth(camera.width, camera.height, 2.0f);
   depth(10, 20) = 0.0f;
-  const auto at = [&](double u, double v, double z) { return camera.Unproject(u, v, z); };
-  EXPECT_THAT(VisibleJoints({at(100, 100, 2.1), at(100, 100, 2.2), at(100, 100, 1.9),
-                             at(10, 20, 5.0), at(319.4, 239.4, 2.1), at(319.6, 100, 2.1),
-                             at(100, -0.6, 2.1), at(100, 100, -2.1), Vector3d(1e30, 0.0, 1e-30)},
-                            depth, camera),
-              testing::ElementsAre(true, false, true, true, true, false, false, false, false));
+  const auto sees = [&](double u, double v, double z) {
+    return SeesJoint(camera.Unproject(u, v, z), 0.15, depth, camera);
+  };
+  EXPECT_TRUE(sees(100, 100, 2.14));
+  EXPECT_FALSE(sees(100, 100, 2.16));
+  EXPECT_TRUE(sees(100, 100, 1.9));
+  EXPECT_TRUE(sees(10, 20, 5.0));  // nothing in front of it
+  EXPECT_TRUE(sees(319.4, 239.4, 2.1));
+  EXPECT_FALSE(sees(319.6, 100, 2.1));
+  EXPECT_FALSE(sees(100, -0.6, 2.1));
+  EXPECT_FALSE(sees(100, 100, -2.1));
+  EXPECT_FALSE(SeesJoint({1e30, 0.0, 1e-30}, 0.15, depth, camera));
+}
+
+TEST(VisibleJoints, LieDeeperInTheTrunkThanInLimbs) {
+  const PinholeCamera camera;
+  const DepthImage depth(camera.width, camera.height, 2.0f);
+  const std::vector<bool> visible = VisibleJoints(
+      std::vector<Vector3d>(kBoneCount, camera.Unproject(100.0, 100.0, 2.2)), depth, camera);
+  for (int b = 0; b < kBoneCount; ++b) EXPECT_EQ(visible[b], b <= 2) << Bones()[b].name;
 }
 
 TEST(RecordSequence, WritesWhatTheBodyDoes) {
