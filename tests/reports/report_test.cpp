@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <regex>
+#include <string_view>
 
 #include <gmock/gmock.h>
 #include <vtkImageData.h>
@@ -19,29 +20,44 @@ namespace vitruvia {
 namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-using testing::Not;
+
+// "" or what is wrong with an element's inside: a name, then attributes in quotes.
+std::string ElementProblem(std::string_view inside) {
+  std::size_t at = std::min(inside.find_first_of(" \n"), inside.size());
+  if (at == 0) return "element without a name";
+  while ((at = inside.find_first_not_of(" \n", at)) != std::string_view::npos) {
+    const std::size_t value = inside.find("=\"", at);
+    if (value == std::string_view::npos) return "attribute without a value";
+    const std::size_t end = inside.find('"', value + 2);
+    if (end == std::string_view::npos) return "attribute without an end";
+    at = end + 1;
+  }
+  return "";
+}
 
 // "" or what is wrong: every element closed in order, every attribute quoted.
-std::string XmlProblem(const std::string& text) {
-  static const std::regex tag(R"(<(/?)([A-Za-z][\w:.-]*)((?:\s+[\w:.-]+="[^"<]*")*)\s*(/?)>)");
-  std::vector<std::string> open;
-  std::size_t at = text.find('<');
-  if (text.compare(at, 5, "<?xml") == 0) at = text.find('<', text.find("?>"));
-  while (at != std::string::npos) {
-    std::smatch match;
+std::string XmlProblem(std::string_view text) {
+  std::vector<std::string_view> open;
+  for (std::size_t at = text.find('<'); at != std::string_view::npos; at = text.find('<', at + 1)) {
     const std::size_t end = text.find('>', at);
-    if (end == std::string::npos) return "no end of a tag";
-    const std::string element = text.substr(at, end - at + 1);
-    if (!std::regex_match(element, match, tag)) return "odd tag " + element.substr(0, 80);
-    if (match[1] == "/") {
-      if (open.empty() || open.back() != match[2]) return "misplaced " + element;
+    if (end == std::string_view::npos) return "no end of a tag";
+    std::string_view inside = text.substr(at + 1, end - at - 1);
+    if (inside.starts_with("?xml")) continue;
+    if (inside.starts_with('/')) {
+      if (open.empty() || open.back() != inside.substr(1))
+        return "misplaced " + std::string(inside);
       open.pop_back();
-    } else if (match[4] != "/") {
-      open.push_back(match[2]);
+      continue;
     }
-    at = text.find('<', end);
+    if (inside.ends_with('/')) {
+      inside.remove_suffix(1);
+    } else {
+      open.push_back(inside.substr(0, inside.find_first_of(" \n")));
+    }
+    const std::string problem = ElementProblem(inside);
+    if (!problem.empty()) return problem + ": " + std::string(inside.substr(0, 80));
   }
-  return open.empty() ? "" : "not closed: " + open.back();
+  return open.empty() ? "" : "not closed: " + std::string(open.back());
 }
 
 struct PngFacts {
@@ -71,14 +87,15 @@ std::size_t Count(const std::string& text, const std::string& part) {
 
 // What the page refers to and is made of.
 void ExpectSelfContained(const std::string& page) {
-  const std::regex reference(R"re((?:src|href|data|action)="([^"]*)")re");
-  for (auto it = std::sregex_iterator(page.begin(), page.end(), reference);
-       it != std::sregex_iterator(); ++it) {
-    const std::string target = (*it)[1];
-    EXPECT_TRUE(target.starts_with("data:") || target.starts_with("#")) << target.substr(0, 80);
+  for (const std::string attribute : {" src=\"", " href=\"", " data=\"", " action=\""}) {
+    for (std::size_t at = page.find(attribute); at != std::string::npos;
+         at = page.find(attribute, at + 1)) {
+      const std::string target = page.substr(at + attribute.size(), 80);
+      EXPECT_TRUE(target.starts_with("data:") || target.starts_with("#")) << target;
+    }
   }
-  EXPECT_THAT(page, Not(HasSubstr("url(")));
-  EXPECT_THAT(page, Not(HasSubstr("@import")));
+  EXPECT_EQ(Count(page, "url("), 0u);
+  EXPECT_EQ(Count(page, "@import"), 0u);
   EXPECT_LT(page.size(), 8'000'000u);
   EXPECT_EQ(Count(page, "<img "), 3u * 2u * 7u);  // runs, frames, pictures
 }
@@ -90,12 +107,13 @@ void ExpectFigures(const fs::path& figures) {
     ++pairs;
     const std::string svg = ReadWholeFile(entry.path());
     EXPECT_EQ(XmlProblem(svg), "") << entry.path();
-    EXPECT_THAT(svg, Not(HasSubstr("nan")));
+    EXPECT_EQ(Count(svg, ",nan") + Count(svg, "nan,"), 0u) << entry.path();
     // Ids of several drawings would clash inside the page.
-    EXPECT_THAT(svg, Not(HasSubstr(" id=")));
+    EXPECT_EQ(Count(svg, " id="), 0u) << entry.path();
     static const std::regex view_box(R"re(viewBox="0 0 (\d+) (\d+)")re");
     std::smatch size;
-    ASSERT_TRUE(std::regex_search(svg, size, view_box));
+    const std::string head = svg.substr(0, 200);
+    ASSERT_TRUE(std::regex_search(head, size, view_box));
     const PngFacts png = ReadPng(fs::path(entry.path()).replace_extension(".png"));
     EXPECT_EQ(png.width, 2 * std::stoi(size[1])) << entry.path();
     EXPECT_EQ(png.height, 2 * std::stoi(size[2])) << entry.path();
