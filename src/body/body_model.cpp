@@ -51,9 +51,9 @@ struct SubjectFile {
                .max = kSubjectVersion,
                .required = true});
     f.Text("name", name, {.meaning = "name of the body", .required = true});
-    f.Number("height", attributes.height_m,
+    f.Number("height_m", attributes.height_m,
              {.meaning = "height", .unit = "m", .min = 0.0, .max = 3.0, .required = true});
-    f.Number("weight", attributes.weight_kg,
+    f.Number("weight_kg", attributes.weight_kg,
              {.meaning = "weight", .unit = "kg", .min = 0.0, .max = 500.0, .required = true});
     f.Choice("sex", attributes.sex, {{"female", Sex::kFemale}, {"male", Sex::kMale}},
              {.meaning = "sex", .required = true});

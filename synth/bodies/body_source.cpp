@@ -12,14 +12,14 @@ void BodySettings::Describe(Fields& f) {
             .origin = Origin::kInput});
   f.Choice("sex", sex, {{"female", Sex::kFemale}, {"male", Sex::kMale}},
            {.meaning = "sex of the subject", .origin = Origin::kInput});
-  f.Number("height", height_m,
+  f.Number("height_m", height_m,
            {.meaning = "stature",
             .unit = "m",
             .min = 1.2,
             .max = 2.1,
             .origin = Origin::kInput,
             .source = "near the mean of ANSUR II men"});
-  f.Number("weight", weight_kg,
+  f.Number("weight_kg", weight_kg,
            {.meaning = "weight",
             .unit = "kg",
             .min = 20.0,
@@ -27,7 +27,7 @@ void BodySettings::Describe(Fields& f) {
             .origin = Origin::kInput,
             .source = "a body-mass index of 23.5 at the default height"});
   if (f.Applies(source == BodySource::kMakeHuman)) {
-    f.Number("age", age_years,
+    f.Number("age_years", age_years,
              {.meaning = "age (makehuman only)",
               .unit = "years",
               .min = 1.0,

@@ -126,7 +126,7 @@ TEST_F(BodyFolder, RefusesWrongSubjects) {
     ExpectRefused("subject.json", reason);
     Damage("subject.json", good);
   };
-  expect("\"height\"", "\"heigth\"", "height");
+  expect("\"height_m\"", "\"heigth_m\"", "height_m");
   expect("\"male\"", "\"mail\"", "female");
   expect("\"left_forearm\"", "\"tail\"", "bone 6 is 'tail', expected 'left_forearm'");
   expect("\"version\": 1", "\"version\": 2", "version");

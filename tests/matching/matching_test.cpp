@@ -40,7 +40,9 @@ TEST(CloudFromDepth, TakesEveryStridePixelThatWasMeasured) {
 TEST(SampleDepth, IsExactOnAPlaneAndNeverMixesAcrossAStep) {
   DepthImage depth(10, 10);
   for (int v = 0; v < 10; ++v) {
-    for (int u = 0; u < 10; ++u) depth(u, v) = u < 5 ? 1.0f + 0.001f * u + 0.002f * v : 2.0f;
+    for (int u = 0; u < 10; ++u)
+      depth(u, v) =
+          u < 5 ? 1.0f + 0.001f * static_cast<float>(u) + 0.002f * static_cast<float>(v) : 2.0f;
   }
   EXPECT_NEAR(SampleDepth(depth, 2.25f, 3.5f, 0.02f), 1.0 + 0.00225 + 0.007, 1e-6);
   EXPECT_EQ(SampleDepth(depth, 4.4f, 3.0f, 0.02f), depth(4, 3));

@@ -296,7 +296,8 @@ TEST(Mannequin, RefusesWhatNoBodyIs) {
   EXPECT_THROW(MakeControlBody(Person(Sex::kMale, 2.0, 40.0)), ConfigError);
   EXPECT_THROW(MakeControlBody(Person(Sex::kFemale, 1.2, 150.0)), ConfigError);
   try {
-    ReadSettings<BodySettings>(Json::parse(R"({"height": 2.0, "weight": 40})"), {"s.json", ""});
+    ReadSettings<BodySettings>(Json::parse(R"({"height_m": 2.0, "weight_kg": 40})"),
+                               {"s.json", ""});
     FAIL() << "expected a ConfigError";
   } catch (const ConfigError& error) {
     EXPECT_THAT(error.what(), HasSubstr("s.json"));
@@ -304,9 +305,9 @@ TEST(Mannequin, RefusesWhatNoBodyIs) {
                 HasSubstr("no mannequin of height 2 m weighs 40 kg; expected a weight "
                           "of 60.0 … 224.0 kg at that height"));
   }
-  EXPECT_THROW(
-      ReadSettings<BodySettings>(Json::parse(R"({"height": 2.3, "weight": 90})"), {"s.json", ""}),
-      ConfigError);
+  EXPECT_THROW(ReadSettings<BodySettings>(Json::parse(R"({"height_m": 2.3, "weight_kg": 90})"),
+                                          {"s.json", ""}),
+               ConfigError);
 }
 
 TEST(Refine, WithoutStepsGivesTheCageAsTriangles) {

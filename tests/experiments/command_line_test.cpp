@@ -1,0 +1,256 @@
+// The command line from end to end on a dozen small frames: what it writes, and how it refuses.
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/json_settings.h"
+#include "experiments/commands.h"
+#include "experiments/experiment_config.h"
+#include "experiments/score.h"
+#include "support/temporary_folder.h"
+
+namespace vitruvia {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path kConfigs = fs::path(VITRUVIA_SOURCE_DIR) / "configs";
+
+struct CallResult {
+  int code;
+  std::string out, error;
+};
+
+CallResult Call(const std::vector<std::string>& arguments) {
+  std::vector<const char*> argv = {"vitruvia"};
+  for (const std::string& argument : arguments) argv.push_back(argument.c_str());
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const int code = RunCommandLine(static_cast<int>(argv.size()), argv.data());
+  return {code, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
+}
+
+void ExpectRefusal(const std::vector<std::string>& arguments, ExitCode code,
+                   const std::vector<std::string>& words) {
+  const CallResult outcome = Call(arguments);
+  EXPECT_EQ(outcome.code, static_cast<int>(code)) << outcome.error;
+  for (const std::string& word : words)
+    EXPECT_NE(outcome.error.find(word), std::string::npos) << outcome.error;
+}
+
+void Write(const fs::path& file, const Json& json) { WriteWholeFile(file, json.dump()); }
+
+// An experiment on the tiny scene with the default method, its files in a folder of the test's own.
+class CommandLine : public testing::Test {
+ protected:
+  CommandLine() {
+    Json scene = ReadJsonFile(kConfigs / "scenes" / "small.json");
+    scene["motion"]["file"] = (kConfigs / "motions" / "arm_wave.json").string();
+    Write(folder_ / "scene.json", scene);
+    Write(folder_ / "method.json", {{"method", "realtime_scape"}});
+    Write(folder_ / "experiment.json", Experiment());
+  }
+
+  static Json Experiment() {
+    return {{"title", "Test"}, {"scenes", {"scene.json"}}, {"methods", {"method.json"}}};
+  }
+
+  std::string File(const std::string& name) const { return (folder_ / name).string(); }
+
+  // A sequence of the tiny scene, fresh for a test to damage.
+  std::string Sequence() const {
+    const std::string sequence = File("sequence");
+    EXPECT_EQ(Call({"synth", File("scene.json"), "-o", sequence}).code, 0);
+    return sequence;
+  }
+
+  CallResult Track(const std::string& sequence) const {
+    return Call({"track", File("method.json"), "--sequence", sequence, "-o", File("estimate")});
+  }
+
+  TemporaryFolder folder_;
+};
+
+// Everything of a run's record but what a clock or this build says.
+Json WithoutClock(Json record) {
+  for (const char* key : {"provenance", "steps"}) record.erase(key);
+  record["frames"].erase("frame_ms");
+  for (const char* key : {"frame_ms_median", "frame_ms_p95", "frame_ms_max"})
+    record["summary"].erase(key);
+  return record;
+}
+
+Json OnlyRecord(const fs::path& experiment_folder) {
+  const Json summary = ReadJsonFile(experiment_folder / "summary.json");
+  EXPECT_EQ(summary.at("rows").size(), 1u);
+  const std::string run = summary.at("rows").at(0).at("run_id");
+  return ReadJsonFile(experiment_folder / run / "record.json");
+}
+
+TEST_F(CommandLine, RunWritesSummaryRecordAndReportAndSameSeedTwiceIsTheSame) {
+  ASSERT_EQ(Call({"run", File("experiment.json"), "-o", File("first")}).code, 0);
+  ASSERT_EQ(Call({"run", File("experiment.json"), "-o", File("second")}).code, 0);
+  const Json row = ReadJsonFile(folder_ / "first" / "summary.json").at("rows").at(0);
+  for (const char* key :
+       {"variant", "scene", "seed", "frames", "frames_failed", "l2_mean_m", "l2_mean_of_diagonal",
+        "l2_max_of_diagonal", "joint_error_mean_m", "joints_within_10cm", "frame_ms_median",
+        "frame_ms_p95", "iterations_mean", "run_id"}) {
+    EXPECT_TRUE(row.contains(key)) << key;
+  }
+  EXPECT_EQ(row.at("frames"), 12);
+  EXPECT_EQ(row.at("frames_failed"), 0);
+  EXPECT_LT(row.at("l2_mean_m").get<double>(), 0.02);
+  EXPECT_TRUE(fs::exists(folder_ / "first" / "report.html"));
+  EXPECT_EQ(WithoutClock(OnlyRecord(folder_ / "first")),
+            WithoutClock(OnlyRecord(folder_ / "second")));
+}
+
+TEST_F(CommandLine, RunKeepsWhatThisBuildHasDone) {
+  ASSERT_EQ(Call({"run", File("experiment.json"), "-o", File("out")}).code, 0);
+  const Json before = OnlyRecord(folder_ / "out");
+  const CallResult again = Call({"run", File("experiment.json"), "-o", File("out")});
+  EXPECT_NE(again.out.find("0 runs done, 1 kept, 0 failed"), std::string::npos) << again.out;
+  EXPECT_EQ(OnlyRecord(folder_ / "out"), before);
+}
+
+TEST_F(CommandLine, GridIsScenesTimesVariantsTimesSeeds) {
+  Json experiment = Experiment();
+  experiment["variants"] = {{{"name", "paper"}},
+                            {{"name", "free"}, {"method", {{"settings", {{"axis_weight", 0}}}}}}};
+  experiment["seeds"] = {1, 2, 3};
+  Write(folder_ / "grid.json", experiment);
+  const ExperimentPlan plan = PlanExperiment(folder_ / "grid.json");
+  ASSERT_EQ(plan.runs.size(), 6u);
+  EXPECT_EQ(plan.runs[3].variant, "free");
+  EXPECT_EQ(plan.runs[3].seed, 1);
+  EXPECT_EQ(plan.runs[3].method.settings.at("axis_weight"), 0.0);
+  EXPECT_EQ(plan.runs[0].method.settings.at("axis_weight"), 1.0);
+}
+
+TEST_F(CommandLine, ConfigNamesAreTakenBelowConfigs) {
+  EXPECT_EQ(ConfigName("/a/configs/realtime_scape/fig11.json"), "realtime_scape/fig11");
+  EXPECT_EQ(ConfigName("/a/b/mine.json"), "mine");
+}
+
+TEST_F(CommandLine, TruthAsEstimateScoresExactlyZeroAndEverything) {
+  const SequenceReader sequence(Sequence());
+  EstimateWriter writer(folder_ / "truth", sequence.true_rest_mesh());
+  for (int i = 0; i < sequence.info().frames; ++i) {
+    TrackResult result;
+    result.outcome = Outcome::kConverged;
+    result.vertices = sequence.ReadTrueVertices(i);
+    result.joints = sequence.true_joints(i).positions;
+    result.step_ms = {{"all", 1.0}};
+    writer.Append(result, 1.0);
+  }
+  writer.Finish();
+  RunRecord record;
+  ScoreRun(sequence, EstimateReader(folder_ / "truth"), record);
+  EXPECT_EQ(record.summary.at("l2_mean_m"), 0.0);
+  EXPECT_EQ(record.summary.at("l2_max_of_diagonal"), 0.0);
+  EXPECT_EQ(record.summary.at("joint_error_mean_m"), 0.0);
+  EXPECT_EQ(record.summary.at("joints_within_10cm"), 1.0);
+  for (const double share : record.joint_accuracy.at("all")) EXPECT_EQ(share, 1.0);
+}
+
+TEST_F(CommandLine, MisuseIsABadConfiguration) {
+  ExpectRefusal({}, ExitCode::kBadConfiguration, {"subcommand is required"});
+  ExpectRefusal({"rum"}, ExitCode::kBadConfiguration, {"rum"});
+  ExpectRefusal({"synth"}, ExitCode::kBadConfiguration, {"SCENE.json -o DIR"});
+  ExpectRefusal({"explain", "axis_wieght"}, ExitCode::kBadConfiguration,
+                {"did you mean \"axis_weight\"?"});
+}
+
+TEST_F(CommandLine, BadConfigsAreNamedAndNothingIsWritten) {
+  const auto refused = [&](const Json& experiment, const std::vector<std::string>& words) {
+    Write(folder_ / "bad.json", experiment);
+    ExpectRefusal({"run", File("bad.json"), "-o", File("never")}, ExitCode::kBadConfiguration,
+                  words);
+    EXPECT_FALSE(fs::exists(folder_ / "never"));
+  };
+  Json e = Experiment();
+  e["sceens"] = Json::array();
+  refused(e, {"bad.json: sceens: unknown key", "did you mean \"scenes\"?"});
+  e = Experiment();
+  e["title"] = 3;
+  refused(e, {"bad.json: title: expected a text, got 3"});
+  e = Experiment();
+  e["scenes"] = {"missing.json"};
+  refused(e, {"missing.json: cannot be opened"});
+  e = Experiment();
+  e["variants"] = {{{"name", "v"}, {"method", {{"settings", {{"joint_weight", -1}}}}}}};
+  refused(e, {"method.json: settings.joint_weight: expected a number in 0", "got -1"});
+  e = Experiment();
+  e["variants"] = {{{"name", "a"}}, {{"name", "a"}}};
+  refused(e, {"\"a\" stands twice"});
+  e = Experiment();
+  e["variants"] = {{{"name", "../a"}}};
+  refused(e, {"expected letters, digits"});
+  e = Experiment();
+  e["scenes"] = Json::array();
+  refused(e, {"expected at least one scene file"});
+  e = Experiment();
+  e["variants"] = {{{"name", "v"}, {"scene", {{"view", {{"camera", {{"width", 0}}}}}}}}};
+  refused(e, {"view.camera.width: expected a whole number in 1", "got 0"});
+  WriteWholeFile(folder_ / "bad.json", "{\"title\": ");
+  ExpectRefusal({"run", File("bad.json")}, ExitCode::kBadConfiguration,
+                {"bad.json: not valid JSON"});
+}
+
+TEST_F(CommandLine, DamagedSequencesAreBadData) {
+  const std::string sequence = Sequence();
+  EXPECT_EQ(Call({"synth", "--verify", sequence}).code, 0);
+  const fs::path png = fs::path(sequence) / "depth" / "000003.png";
+  const std::string whole = ReadWholeFile(png);
+  WriteWholeFile(png, whole.substr(0, whole.size() / 2));
+  ExpectRefusal({"synth", "--verify", sequence}, ExitCode::kBadData, {"000003.png"});
+  const CallResult outcome = Track(sequence);
+  EXPECT_EQ(outcome.code, static_cast<int>(ExitCode::kBadData)) << outcome.error;
+  EXPECT_FALSE(fs::exists(folder_ / "estimate"));  // nothing half-written
+  for (const auto& entry : fs::directory_iterator(folder_.path())) {
+    EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
+  }
+}
+
+TEST_F(CommandLine, EmptySequencesImagesWithoutSizeAndTooFewWeightsAreBadData) {
+  const std::string sequence = Sequence();
+  const fs::path info_file = fs::path(sequence) / "sequence.json";
+  const Json info = ReadJsonFile(info_file);
+  Json damaged = info;
+  damaged["frames"] = 0;
+  Write(info_file, damaged);
+  EXPECT_EQ(Track(sequence).code, static_cast<int>(ExitCode::kBadData));
+  damaged = info;
+  damaged["camera"]["width"] = 0;
+  Write(info_file, damaged);
+  EXPECT_EQ(Track(sequence).code, static_cast<int>(ExitCode::kBadData));
+  Write(info_file, info);
+  const fs::path weights = fs::path(sequence) / "subject" / "weights.bin";
+  WriteWholeFile(weights, ReadWholeFile(weights).substr(320));
+  ExpectRefusal({"track", File("method.json"), "--sequence", sequence, "-o", File("estimate")},
+                ExitCode::kBadData, {"weights.bin"});
+}
+
+TEST_F(CommandLine, MissingInputsAndUnwritableOutputsAreTold) {
+  ExpectRefusal({"track", File("method.json"), "--sequence", File("nowhere"), "-o", File("e")},
+                ExitCode::kBadData, {"nowhere"});
+  ExpectRefusal({"report", File("nowhere")}, ExitCode::kBadData, {"nowhere"});
+  WriteWholeFile(folder_ / "plain_file", "");
+  ExpectRefusal({"run", File("experiment.json"), "-o", File("plain_file/out")},
+                ExitCode::kFailedRun, {"plain_file"});
+  ExpectRefusal({"synth", File("scene.json"), "-o", File("plain_file/out")}, ExitCode::kFailedRun,
+                {"plain_file"});
+}
+
+TEST_F(CommandLine, ExplainSaysUnitRangeDefaultAndSource) {
+  const CallResult outcome = Call({"explain", "realtime_scape.inertia_weight"});
+  EXPECT_EQ(outcome.code, 0);
+  for (const char* word :
+       {"keeps each bone's local rotation", "default: 5 (paper; paper A, eq. 7)", "range:"}) {
+    EXPECT_NE(outcome.out.find(word), std::string::npos) << outcome.out;
+  }
+}
+
+}  // namespace
+}  // namespace vitruvia
