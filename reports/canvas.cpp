@@ -21,6 +21,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "reports/html_text.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -36,16 +37,17 @@ class Drawing : public vtkContextItem {
   vtkTypeMacro(Drawing, vtkContextItem)
 
       bool Paint(vtkContext2D* painter) override {
-    Canvas canvas(*painter, page_height, scale);
+    additions = {};
+    Canvas canvas(*painter, page_height, scale, for_svg ? &additions : nullptr);
     canvas.Rectangle({0.0, 0.0}, page_width, page_height, kPaper);
     (*draw)(canvas);
-    pictures = canvas.pictures();
     return true;
   }
 
   const std::function<void(Canvas&)>* draw = nullptr;
   double page_width = 0.0, page_height = 0.0, scale = 1.0;
-  std::vector<PlacedPicture> pictures;  // of the last painting
+  bool for_svg = false;
+  SvgAdditions additions;  // of the last painting
 };
 vtkStandardNewMacro(Drawing)
 
@@ -62,28 +64,47 @@ vtkStandardNewMacro(Drawing)
   return data;
 }
 
-// Adds to VTK's SVG what it lacks: a view box, without which it does not scale, and the pictures.
-std::string Completed(std::string svg, int width, int height,
-                      const std::vector<PlacedPicture>& pictures) {
+std::string SvgElement(const PlacedPicture& p) {
+  return fmt::format(
+      "<image x=\"{:g}\" y=\"{:g}\" width=\"{:g}\" height=\"{:g}\" xlink:href=\"{}\"/>\n",
+      p.top_left.x, p.top_left.y, p.width, p.height, DataUri(EncodePng(*p.picture)));
+}
+
+std::string SvgElement(const PlacedText& t) {
+  // Renderers disagree on dominant-baseline, so the shift is made here, in shares of the size.
+  constexpr double kBelowTop = 0.76, kBelowMiddle = 0.36, kBelowBottom = -0.22;
+  const double shift = t.style.size * (t.style.baseline == Baseline::kTop      ? kBelowTop
+                                       : t.style.baseline == Baseline::kMiddle ? kBelowMiddle
+                                                                               : kBelowBottom);
+  const char* anchor = t.style.anchor == Anchor::kStart    ? "start"
+                       : t.style.anchor == Anchor::kMiddle ? "middle"
+                                                           : "end";
+  return fmt::format(
+      "<text transform=\"translate({:g} {:g}) rotate({})\" y=\"{:.2f}\" font-size=\"{:g}\" "
+      "font-weight=\"{}\" text-anchor=\"{}\" fill=\"{}\">{}</text>\n",
+      t.at.x, t.at.y, t.style.direction == Direction::kUpwards ? -90 : 0, shift, t.style.size,
+      t.style.bold ? 600 : 400, anchor, CssColor(t.style.color), Escaped(t.text));
+}
+
+// VTK's SVG with what it lacks: a view box, without which it does not scale, pictures and text.
+std::string Completed(std::string svg, int width, int height, const SvgAdditions& additions) {
   const std::size_t start = svg.find("<svg "), end = svg.rfind("</svg>");
   if (start == std::string::npos || end == std::string::npos) {
     throw RunError("VTK's SVG exporter wrote no whole drawing");
   }
-  std::string images;
-  for (const PlacedPicture& p : pictures) {
-    images += fmt::format(
-        "<image x=\"{:g}\" y=\"{:g}\" width=\"{:g}\" height=\"{:g}\" xlink:href=\"{}\"/>\n",
-        p.top_left.x, p.top_left.y, p.width, p.height, DataUri(EncodePng(*p.picture)));
-  }
-  svg.insert(end, images);
+  std::string elements =
+      "<g font-family=\"system-ui, 'Segoe UI', Roboto, 'Noto Sans', 'DejaVu Sans', sans-serif\">\n";
+  for (const PlacedPicture& picture : additions.pictures) elements += SvgElement(picture);
+  for (const PlacedText& text : additions.texts) elements += SvgElement(text);
+  svg.insert(end, elements + "</g>\n");
   svg.insert(start + 5, fmt::format("viewBox=\"0 0 {} {}\" ", width, height));
   return svg;
 }
 
 }  // namespace
 
-Canvas::Canvas(vtkContext2D& context, double page_height, double scale)
-    : context_(&context), page_height_(page_height), scale_(scale) {}
+Canvas::Canvas(vtkContext2D& context, double page_height, double scale, SvgAdditions* additions)
+    : context_(&context), page_height_(page_height), scale_(scale), additions_(additions) {}
 
 void Canvas::SetPen(const Stroke& stroke) {
   vtkPen* pen = context_->GetPen();
@@ -186,19 +207,19 @@ void Canvas::SetFont(const TextStyle& style) {
 
 void Canvas::Text(Point at, const std::string& text, const TextStyle& style) {
   if (text.empty()) return;
+  if (additions_ != nullptr) {
+    additions_->texts.push_back({at, text, style});
+    return;
+  }
   SetFont(style);
   context_->DrawString(X(at.x), Y(at.y), text);
 }
 
-double Canvas::TextWidth(const std::string& text, const TextStyle& style) {
-  SetFont(style);
-  float bounds[4];
-  context_->ComputeStringBounds(vtkStdString(text), bounds);
-  return static_cast<double>(bounds[2]) / scale_;
-}
-
 void Canvas::Picture(Point top_left, double width, double height, const ColorImage& picture) {
-  pictures_.push_back({top_left, width, height, &picture});
+  if (additions_ != nullptr) {
+    additions_->pictures.push_back({top_left, width, height, &picture});
+    return;
+  }
   const vtkNew<vtkImageData> data = ToVtk(picture);
   context_->DrawImage(
       vtkRectf(X(top_left.x), Y(top_left.y + height), static_cast<float>(width * scale_),
@@ -217,13 +238,14 @@ struct DrawingWriter::Window {
     drawing->page_width = width;
     drawing->page_height = height;
     drawing->scale = scale;
+    drawing->for_svg = false;
     offscreen.Resize(static_cast<int>(width * scale), static_cast<int>(height * scale));
   }
   void ExportSvg(const fs::path& file) {
+    drawing->for_svg = true;
     vtkNew<vtkSVGExporter> exporter;
     exporter->SetRenderWindow(&offscreen.vtk());
     exporter->SetFileName(file.c_str());
-    exporter->SetTextAsPath(true);  // the exporter's text elements are misaligned in browsers
     exporter->SetTitle("");
     exporter->SetDescription("");
     exporter->Write();
@@ -247,7 +269,7 @@ void DrawingWriter::Write(const fs::path& stem, int width, int height,
   window_->Show(width, height, 1.0);
   window_->ExportSvg(svg);
   if (!fs::exists(svg)) throw RunError(fmt::format("{}: cannot be written", svg.string()));
-  WriteWholeFile(svg, Completed(ReadWholeFile(svg), width, height, window_->drawing->pictures));
+  WriteWholeFile(svg, Completed(ReadWholeFile(svg), width, height, window_->drawing->additions));
 }
 
 }  // namespace vitruvia

@@ -1,9 +1,9 @@
 // Flat drawings with VTK's 2-D context, to PNG and SVG alike.
 //
 // VTK's own charts are not used: the SVG exporter of VTK 9.1 applies a chart's clipping inside the
-// data's transform, which cuts the curves away, and sets right-aligned text wrongly. Drawings here
-// are made of lines, rectangles, discs, text and pictures in page coordinates, which come out the
-// same in both formats. Pictures the exporter leaves out; they are added to its SVG afterwards.
+// data's transform, which cuts the curves away. Drawings here are made of lines, rectangles, discs,
+// text and pictures in page coordinates, which come out the same in both formats. The exporter
+// leaves pictures out and misplaces text in browsers; both are added to its SVG afterwards.
 #pragma once
 
 #include <filesystem>
@@ -42,16 +42,27 @@ struct TextStyle {
   bool bold = false;
 };
 
+// What is added to an SVG after VTK.
 struct PlacedPicture {
   Point top_left;
   double width = 0.0, height = 0.0;
   const ColorImage* picture = nullptr;
 };
+struct PlacedText {
+  Point at;
+  std::string text;
+  TextStyle style;
+};
+struct SvgAdditions {
+  std::vector<PlacedPicture> pictures;
+  std::vector<PlacedText> texts;
+};
 
 class Canvas {
  public:
-  // `scale` device pixels per page unit.
-  Canvas(vtkContext2D& context, double page_height, double scale);
+  // `scale` device pixels per page unit. Pictures and text are drawn if `additions` is null, and
+  // otherwise put down there.
+  Canvas(vtkContext2D& context, double page_height, double scale, SvgAdditions* additions);
 
   void Line(Point a, Point b, const Stroke& stroke);
   void Polyline(const std::vector<Point>& points, const Stroke& stroke);
@@ -61,9 +72,6 @@ class Canvas {
   void Text(Point at, const std::string& text, const TextStyle& style);
   // The picture must outlive the drawing.
   void Picture(Point top_left, double width, double height, const ColorImage& picture);
-  double TextWidth(const std::string& text, const TextStyle& style);
-
-  const std::vector<PlacedPicture>& pictures() const { return pictures_; }
 
  private:
   void SetPen(const Stroke& stroke);
@@ -73,7 +81,7 @@ class Canvas {
 
   vtkContext2D* context_;
   double page_height_, scale_;
-  std::vector<PlacedPicture> pictures_;
+  SvgAdditions* additions_;
 };
 
 // Writes drawings to files. One for many drawings: its OpenGL context and shaders are made once.

@@ -50,13 +50,15 @@ std::string ComparisonRows(const Comparison& c) {
       "{}</span><small>{}</small></th></tr>\n",
       Escaped(Titled(c.metric)), Escaped(c.expectation.source), Escaped(c.expectation.remark));
   for (const ComparedRun& run : c.runs) {
-    rows += fmt::format("<tr><td class=\"run\">{}</td><td class=\"n\">{}</td>", Escaped(run.run_id),
-                        c.paper);
+    rows += fmt::format("<tr><td class=\"run\">{}</td><td class=\"n\" data-label=\"paper\">{}</td>",
+                        Escaped(run.run_id), c.paper);
     rows += run.problem.empty()
-                ? fmt::format("<td class=\"n\">{}</td><td class=\"n\">{}</td>", run.ours,
-                              run.difference)
+                ? fmt::format(
+                      "<td class=\"n\" data-label=\"ours\">{}</td><td class=\"n\" "
+                      "data-label=\"difference\">{}</td>",
+                      run.ours, run.difference)
                 : fmt::format("<td class=\"problem\" colspan=\"2\">{}</td>", Escaped(run.problem));
-    rows += fmt::format("<td class=\"n\">{}</td>{}</tr>\n",
+    rows += fmt::format("<td class=\"n\" data-label=\"target\">{}</td>{}</tr>\n",
                         c.target.empty() ? "–" : "≤ " + c.target, VerdictCell(run.verdict));
   }
   return rows + "</tbody>\n";
@@ -69,7 +71,8 @@ std::string PaperSection(const ReportedExperiment& experiment) {
   }
   html +=
       "<p>The difference is ours minus the paper’s. The remark under each number says how our work "
-      "differs from the paper’s.</p><div class=\"scroll\"><table><thead><tr><th>run</th>"
+      "differs from the paper’s.</p><div class=\"scroll\"><table "
+      "class=\"compare\"><thead><tr><th>run</th>"
       "<th class=\"n\">paper</th><th class=\"n\">ours</th><th class=\"n\">difference</th>"
       "<th class=\"n\">target</th><th></th></tr></thead>\n";
   for (const Comparison& c : CompareWithPapers(experiment)) html += ComparisonRows(c);

@@ -21,6 +21,7 @@ nav { display: flex; flex-wrap: wrap; gap: .3rem 1.2rem; padding: .6rem 0; font-
 a { color: var(--accent); }
 code, .run { font: .86em/1.4 ui-monospace, "SF Mono", Menlo, Consolas, "DejaVu Sans Mono", monospace; }
 .run { overflow-wrap: anywhere; }
+td.run { white-space: nowrap; overflow-wrap: normal; }
 .scroll { overflow-x: auto; -webkit-overflow-scrolling: touch; }
 table { border-collapse: collapse; font-size: .92rem; min-width: 100%; }
 th, td { padding: .38rem .7rem; text-align: left; vertical-align: baseline;
@@ -42,7 +43,7 @@ th[aria-sort=descending] button::after { content: " ▼"; }
 figure { margin: 1.2rem 0 0; }
 figcaption { font-size: .92rem; max-width: 80ch; }
 figcaption b { color: var(--ink); font-size: 1.02rem; display: block; }
-figure.plot svg { display: block; width: 100%; min-width: 600px; max-width: 940px; height: auto;
+figure.plot svg { display: block; width: 100%; min-width: 540px; max-width: 900px; height: auto;
                   margin-top: .4rem; }
 .cells { display: grid; gap: .5rem; grid-template-columns: repeat(7, minmax(0, 1fr)); }
 .cells figure { margin: 0; }
@@ -68,6 +69,17 @@ dd { margin: 0; overflow-wrap: anywhere; }
   table { font-size: .85rem; }
   dl { grid-template-columns: minmax(0, 1fr); gap: 0; }
   dd { margin-bottom: .4rem; }
+  .compare, .compare tbody { display: block; }
+  .compare thead { display: none; }
+  .compare tr { display: grid; grid-template-columns: repeat(4, minmax(0, 1fr));
+                border-bottom: 1px solid var(--line); padding: .3rem 0; }
+  .compare th, .compare td { border: 0; padding: .1rem .3rem; text-align: left; }
+  .compare .run, .compare tr.group th { grid-column: 1 / -1; white-space: normal; overflow-wrap: anywhere; }
+  .compare tr.group { background: var(--band); }
+  .compare .problem { grid-column: span 2; }
+  .compare td.verdict { grid-column: 1 / -1; }
+  .compare td[data-label]::before { content: attr(data-label); display: block; color: var(--soft);
+                                    font-size: .82em; }
 }
 @media print {
   body { max-width: none; padding: 0; font-size: 10pt; }
@@ -75,6 +87,8 @@ dd { margin: 0; overflow-wrap: anywhere; }
   .scroll { overflow: visible; }
   figure, .strip, tr { break-inside: avoid; }
   figure.plot svg { min-width: 0; }
+  .sortable { font-size: 5.5pt; }
+  .sortable th, .sortable td { padding: 1pt 1.5pt; white-space: normal; overflow-wrap: anywhere; }
   h2, h3, h4 { break-after: avoid; }
   .cells { grid-template-columns: repeat(7, minmax(0, 1fr)); }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }

@@ -12,6 +12,7 @@
 #include "core/progress.h"
 #include "metrics/vertex_error.h"
 #include "records/estimate.h"
+#include "reports/axis.h"
 #include "reports/color_maps.h"
 #include "reports/mesh_view.h"
 #include "sequence/sequence.h"
@@ -24,7 +25,7 @@ constexpr double kSideViewTurn_deg = 60.0;  // of the second viewpoint, about th
 constexpr double kMargin = 1.12;            // of a picture over the body in it
 constexpr double kOverlayOpacity = 0.72;    // of the reconstruction over the depth image
 constexpr double kSmallestErrorScale_m = 0.01;
-constexpr double kErrorScaleShare = 0.995;  // of all errors shown lie within the scale
+constexpr double kErrorScaleShare = 0.98;  // of all errors shown lie within the scale
 constexpr Color kNoDepth{0xf4, 0xf4, 0xf4};
 
 struct FrameErrors {
@@ -56,15 +57,6 @@ struct PictureSource {
   std::vector<FrameErrors> errors;  // of the picture frames
 };
 
-// 1, 2 or 5 times a power of ten, not below `value`.
-double NiceCeiling(double value) {
-  const double magnitude = std::pow(10.0, std::floor(std::log10(value)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * magnitude >= value * (1.0 - 1e-9)) return factor * magnitude;
-  }
-  return 10.0 * magnitude;
-}
-
 double ErrorScale(const std::vector<std::unique_ptr<PictureSource>>& sources) {
   std::vector<double> all;
   for (const auto& source : sources) {
@@ -77,7 +69,7 @@ double ErrorScale(const std::vector<std::unique_ptr<PictureSource>>& sources) {
   const auto at =
       static_cast<std::ptrdiff_t>(kErrorScaleShare * static_cast<double>(all.size() - 1));
   std::nth_element(all.begin(), all.begin() + at, all.end());
-  return NiceCeiling(std::max(all[static_cast<std::size_t>(at)], kSmallestErrorScale_m));
+  return RoundedUp(std::max(all[static_cast<std::size_t>(at)], kSmallestErrorScale_m));
 }
 
 struct Bounds {
@@ -170,10 +162,16 @@ std::vector<Color> ErrorColors(const std::vector<double>& errors_m, double scale
   return colors;
 }
 
-// The extents in which every strip of a run is shown, so that its pictures have one scale.
+// What every strip of a run shows round the body's middle, so that its pictures have one scale
+// however far away the body is.
 struct Framing {
-  double front = 0.0, side = 0.0;  // pixels of the camera
+  double front_m = 0.0, side_m = 0.0;  // width and height
 };
+
+// A length at the depth of a point, in pixels.
+double Pixels(const PinholeCamera& camera, double length_m, const Vector3f& at) {
+  return length_m * camera.fx / static_cast<double>(at.z());
+}
 
 // Draws a run's strips.
 class StripPainter {
@@ -204,8 +202,10 @@ class StripPainter {
     const auto estimate = source_.estimate.ReadVertices(frame.frame);
     const Vector3f middle = Middle(truth);
     const auto truth_side = Turned(truth, middle), estimate_side = Turned(estimate, middle);
-    const PictureWindow front = Centered(Projected(camera_, truth), framing_.front);
-    const PictureWindow side = Centered(Projected(camera_, truth_side), framing_.side);
+    const PictureWindow front =
+        Centered(Projected(camera_, truth), Pixels(camera_, framing_.front_m, middle));
+    const PictureWindow side =
+        Centered(Projected(camera_, truth_side), Pixels(camera_, framing_.side_m, middle));
     const auto& estimate_triangles = source_.estimate.rest_mesh().triangles;
     const auto& true_triangles = source_.sequence.true_rest_mesh().triangles;
     const std::vector<Color> errors = ErrorColors(frame.errors_m, run_.error_scale_m);
@@ -230,9 +230,13 @@ class StripPainter {
   void FindFraming() {
     for (const FrameErrors& frame : source_.errors) {
       const auto truth = source_.sequence.ReadTrueVertices(frame.frame);
-      const auto side = Turned(truth, Middle(truth));
-      framing_.front = std::max(framing_.front, kMargin * Projected(camera_, truth).extent());
-      framing_.side = std::max(framing_.side, kMargin * Projected(camera_, side).extent());
+      const Vector3f middle = Middle(truth);
+      const double one_meter = Pixels(camera_, 1.0, middle) / kMargin;
+      const auto widen = [&](double& extent_m, const std::vector<Vector3f>& points) {
+        extent_m = std::max(extent_m, Projected(camera_, points).extent() / one_meter);
+      };
+      widen(framing_.front_m, truth);
+      widen(framing_.side_m, Turned(truth, middle));
     }
   }
 

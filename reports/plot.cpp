@@ -2,27 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include <fmt/format.h>
+#include <limits>
 
 #include "reports/color_maps.h"
 
 namespace vitruvia {
 namespace {
 
-constexpr double kGap = 14.0;                                               // between panels
-constexpr double kLeft = 74.0, kRight = 18.0, kTop = 34.0, kBottom = 50.0;  // round a panel's axes
-constexpr double kWidePanelHeight = 250.0, kNarrowPanelHeight = 330.0;
+constexpr double kGap = 14.0;  // between panels
+constexpr double kLeft = 80.0, kNarrowLeft = 62.0, kRight = 18.0, kTop = 34.0,
+                 kBottom = 50.0;  // round a panel's axes
+constexpr double kStackedPanelHeight = 250.0, kPanelHeight = 330.0;
 constexpr double kLegendLine = 22.0, kLegendSample = 26.0, kLegendSpace = 22.0;
-constexpr double kTickLength = 5.0;
+constexpr double kTickLength = 5.0, kTickSpace = 60.0;
+constexpr int kYTicks = 5;
+constexpr double kLabel = 12.0;  // middle of the y label, from the panel's left
 constexpr double kFailureRow = 9.0;
 constexpr double kHeadroom = 1.06;  // of an axis over its largest value
 constexpr Color kGrid{0xe4, 0xe4, 0xe4}, kAxis{0x44, 0x44, 0x44}, kReferenceInk{0x66, 0x66, 0x66};
 constexpr double kReferenceDash = 5.0;
 
-// A legend's width must be known before anything can be measured, so widths are taken as this
-// many units a letter, a little more than any text needs.
-constexpr double kLetterWidth = 7.4;
+// Fonts differ from reader to reader, so a legend's text is taken to be this wide a letter, a
+// little more than it needs.
+constexpr double kLetterWidth = 8.0;
 
 struct LegendEntry {
   std::string name;
@@ -62,12 +64,12 @@ double LegendHeight(const std::vector<LegendEntry>& entries) {
   return entries.empty() ? 0.0 : kLegendLine * (entries.back().line + 1) + 6.0;
 }
 
-double PanelHeight(const Figure& figure) {
-  return figure.columns == 1 ? kWidePanelHeight : kNarrowPanelHeight;
-}
-
 int Rows(const Figure& figure) {
   return (static_cast<int>(figure.panels.size()) + figure.columns - 1) / figure.columns;
+}
+
+double PanelHeight(const Figure& figure) {
+  return Rows(figure) > 1 ? kStackedPanelHeight : kPanelHeight;
 }
 
 void DrawLegend(Canvas& canvas, const std::vector<LegendEntry>& entries) {
@@ -86,75 +88,104 @@ void DrawLegend(Canvas& canvas, const std::vector<LegendEntry>& entries) {
   }
 }
 
-double LargestFinite(double largest, const std::vector<double>& values) {
-  for (const double value : values) {
-    if (std::isfinite(value)) largest = std::max(largest, value);
+// The smallest positive and the largest of what is to be shown.
+struct Range {
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0.0;
+
+  void Add(double value) {
+    if (!std::isfinite(value)) return;
+    largest = std::max(largest, value);
+    if (value > 0.0) smallest = std::min(smallest, value);
   }
-  return largest;
+  void Add(const std::vector<double>& values) {
+    for (const double value : values) Add(value);
+  }
+};
+
+Axis MakeAxis(Scale scale, const Range& range, double fixed_end) {
+  if (std::isfinite(fixed_end)) return Axis::Linear(fixed_end);
+  if (range.largest <= 0.0) return Axis::Linear(1.0);
+  if (scale == Scale::kLogarithmic) return Axis::Logarithmic(range.smallest, range.largest);
+  return Axis::Linear(range.largest * kHeadroom);
 }
 
-double AxisEnd(double fixed, double largest) {
-  if (std::isfinite(fixed)) return fixed;
-  return largest > 0.0 ? largest * kHeadroom : 1.0;
+Axis MakeXAxis(const Panel& panel) {
+  Range range;
+  for (const Series& series : panel.series) {
+    range.Add(series.x);
+    range.Add(series.x_reach);
+  }
+  for (const Reference& reference : panel.x_references) range.Add(reference.value);
+  return MakeAxis(Scale::kLinear, range, panel.x_end);
+}
+
+Axis MakeYAxis(const Panel& panel) {
+  Range range;
+  for (const Series& series : panel.series) range.Add(series.y);
+  for (const Reference& reference : panel.y_references) range.Add(reference.value);
+  return MakeAxis(panel.y_scale, range, panel.y_end);
+}
+
+bool HasData(const Panel& panel) {
+  for (const Series& series : panel.series) {
+    for (const double value : series.y) {
+      if (std::isfinite(value)) return true;
+    }
+  }
+  return false;
+}
+
+// Narrow panels have short tick labels: they show percent.
+double LeftMargin(double panel_width) {
+  return panel_width < 0.5 * kFigureWidth ? kNarrowLeft : kLeft;
 }
 
 // One panel's mapping from data to page.
 class PanelFrame {
  public:
   PanelFrame(const Panel& panel, Point top_left, double width, double height)
-      : left_(top_left.x + kLeft),
+      : label_x_(top_left.x + kLabel),
+        left_(top_left.x + LeftMargin(width)),
         top_(top_left.y + kTop),
-        width_(width - kLeft - kRight),
-        height_(height - kTop - kBottom) {
-    double x = 0.0, y = 0.0;
-    for (const Series& series : panel.series) {
-      x = LargestFinite(LargestFinite(x, series.x), series.x_reach);
-      y = LargestFinite(y, series.y);
-    }
-    for (const Reference& reference : panel.x_references) x = std::max(x, reference.value);
-    for (const Reference& reference : panel.y_references) y = std::max(y, reference.value);
-    x_end_ = AxisEnd(panel.x_end, x);
-    y_end_ = AxisEnd(panel.y_end, y);
-  }
+        width_(width - LeftMargin(width) - kRight),
+        height_(height - kTop - kBottom),
+        x_axis_(MakeXAxis(panel)),
+        y_axis_(MakeYAxis(panel)) {}
 
+  double label_x() const { return label_x_; }
   double left() const { return left_; }
   double right() const { return left_ + width_; }
   double top() const { return top_; }
   double bottom() const { return top_ + height_; }
-  double x_end() const { return x_end_; }
-  double y_end() const { return y_end_; }
-  double X(double x) const { return left_ + width_ * x / x_end_; }
-  double Y(double y) const { return top_ + height_ * (1.0 - y / y_end_); }
+  double X(double x) const { return left_ + width_ * x_axis_.Share(x); }
+  double Y(double y) const { return top_ + height_ * (1.0 - y_axis_.Share(y)); }
   Point At(double x, double y) const { return {X(x), Y(y)}; }
+  std::vector<Tick> XTicks() const { return x_axis_.Ticks(static_cast<int>(width_ / kTickSpace)); }
+  std::vector<Tick> YTicks() const { return y_axis_.Ticks(kYTicks); }
 
  private:
-  double left_, top_, width_, height_, x_end_ = 1.0, y_end_ = 1.0;
+  double label_x_, left_, top_, width_, height_;
+  Axis x_axis_, y_axis_;
 };
 
 void DrawAxes(Canvas& canvas, const Panel& panel, const PanelFrame& frame) {
-  const Ticks x_ticks =
-      NiceTicks(frame.x_end(), static_cast<int>((frame.right() - frame.left()) / 80));
-  const Ticks y_ticks = NiceTicks(frame.y_end(), 5);
-  constexpr double kRounding = 1e-9;  // a tick at the very end is still inside
-  for (int i = 0; i * x_ticks.step <= frame.x_end() * (1.0 + kRounding); ++i) {
-    const double x = frame.X(i * x_ticks.step);
+  for (const Tick& tick : frame.XTicks()) {
+    const double x = frame.X(tick.value);
     canvas.Line({x, frame.bottom()}, {x, frame.bottom() + kTickLength}, {kAxis, 1.0});
-    canvas.Text({x, frame.bottom() + kTickLength + 2.0},
-                fmt::format("{:.{}f}", i * x_ticks.step, x_ticks.decimals),
+    canvas.Text({x, frame.bottom() + kTickLength + 2.0}, tick.label,
                 {.size = 12.0, .anchor = Anchor::kMiddle, .baseline = Baseline::kTop});
   }
-  for (int i = 0; i * y_ticks.step <= frame.y_end() * (1.0 + kRounding); ++i) {
-    const double y = frame.Y(i * y_ticks.step);
-    if (i > 0) canvas.Line({frame.left(), y}, {frame.right(), y}, {kGrid, 1.0});
-    canvas.Text({frame.left() - 7.0, y}, fmt::format("{:.{}f}", i * y_ticks.step, y_ticks.decimals),
-                {.size = 12.0, .anchor = Anchor::kEnd});
+  for (const Tick& tick : frame.YTicks()) {
+    const double y = frame.Y(tick.value);
+    canvas.Line({frame.left(), y}, {frame.right(), y}, {kGrid, 1.0});
+    canvas.Text({frame.left() - 7.0, y}, tick.label, {.size = 12.0, .anchor = Anchor::kEnd});
   }
   canvas.Line({frame.left(), frame.bottom()}, {frame.right(), frame.bottom()}, {kAxis, 1.0});
   canvas.Line({frame.left(), frame.top()}, {frame.left(), frame.bottom()}, {kAxis, 1.0});
   canvas.Text({frame.left(), frame.top() - 12.0}, panel.title, {.size = 14.0, .bold = true});
   canvas.Text({0.5 * (frame.left() + frame.right()), frame.bottom() + 26.0}, panel.x_label,
               {.anchor = Anchor::kMiddle, .baseline = Baseline::kTop});
-  canvas.Text({frame.left() - kLeft + 16.0, 0.5 * (frame.top() + frame.bottom())}, panel.y_label,
+  canvas.Text({frame.label_x(), 0.5 * (frame.top() + frame.bottom())}, panel.y_label,
               {.anchor = Anchor::kMiddle, .direction = Direction::kUpwards});
 }
 
@@ -171,11 +202,10 @@ void DrawReferences(Canvas& canvas, const Panel& panel, const PanelFrame& frame)
     note += (note.empty() ? "" : "; ") + r.label;
   }
   if (note.empty()) return;
-  const TextStyle style{.size = 12.0, .color = kReferenceInk, .anchor = Anchor::kEnd};
-  const double y = frame.top() - 12.0;
-  const double start = frame.right() - canvas.TextWidth(note, style) - 8.0;
-  canvas.Text({frame.right(), y}, note, style);
-  canvas.Line({start - 22.0, y}, {start, y}, stroke);
+  const double y = frame.top() - 12.0, sample = frame.right() - 22.0;
+  canvas.Line({sample, y}, {frame.right(), y}, stroke);
+  canvas.Text({sample - 7.0, y}, note,
+              {.size = 12.0, .color = kReferenceInk, .anchor = Anchor::kEnd});
 }
 
 void DrawLine(Canvas& canvas, const Series& series, const PanelFrame& frame) {
@@ -213,9 +243,7 @@ void DrawPanel(Canvas& canvas, const Panel& panel, Point top_left, double width,
   const PanelFrame frame(panel, top_left, width, height);
   DrawAxes(canvas, panel, frame);
   DrawReferences(canvas, panel, frame);
-  bool any = false;
-  for (const Series& series : panel.series) any = any || LargestFinite(-1.0, series.y) >= 0.0;
-  if (!any) {
+  if (!HasData(panel)) {
     canvas.Text({0.5 * (frame.left() + frame.right()), 0.5 * (frame.top() + frame.bottom())},
                 "no data", {.color = kReferenceInk, .anchor = Anchor::kMiddle});
   }
@@ -232,17 +260,6 @@ void DrawPanel(Canvas& canvas, const Panel& panel, Point top_left, double width,
 }
 
 }  // namespace
-
-Ticks NiceTicks(double end, int count) {
-  const double rough = end / std::max(count, 1);
-  const double magnitude = std::pow(10.0, std::floor(std::log10(rough)));
-  double step = 10.0 * magnitude;
-  for (const double factor : {5.0, 2.0, 1.0}) {
-    if (factor * magnitude >= rough * (1.0 - 1e-9)) step = factor * magnitude;
-  }
-  const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
-  return {step, decimals};
-}
 
 int FigureHeight(const Figure& figure) {
   const int rows = Rows(figure);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/axis.h"
 #include "reports/canvas.h"
 
 namespace vitruvia {
@@ -31,7 +32,8 @@ struct Panel {
   std::string title, x_label, y_label;  // labels name quantity and unit
   std::vector<Series> series;
   std::vector<Reference> y_references, x_references;
-  // Fixed ends of the axes; NaN: from the data, with zero in view.
+  Scale y_scale = Scale::kLinear;
+  // Fixed ends of linear axes; NaN: from the data.
   double x_end = std::numeric_limits<double>::quiet_NaN();
   double y_end = std::numeric_limits<double>::quiet_NaN();
 };
@@ -44,16 +46,9 @@ struct Figure {
 };
 
 // Page units. All figures are equally wide.
-inline constexpr int kFigureWidth = 940;
+inline constexpr int kFigureWidth = 780;
 int FigureHeight(const Figure& figure);
 
 void DrawFigure(Canvas& canvas, const Figure& figure);
-
-// Round numbers that cover 0 … end in about `count` steps, and how to print them.
-struct Ticks {
-  double step = 1.0;
-  int decimals = 0;
-};
-Ticks NiceTicks(double end, int count);
 
 }  // namespace vitruvia

@@ -143,6 +143,7 @@ Figure TimeFigure(const ExperimentRecord& experiment, const RunGroup& group) {
               Published(experiment, "frame_ms_median"),
               {}};
   panel.x_end = LastFrame(group.runs);
+  panel.y_scale = Scale::kLogarithmic;  // a first frame may take ten times as long as the others
   figure.panels = {std::move(panel)};
   return figure;
 }

@@ -68,10 +68,12 @@ std::string LatexComparison(const ReportedExperiment& experiment) {
     rows += fmt::format("\\midrule\n\\multicolumn{{6}}{{l}}{{{}, {}}} \\\\\n",
                         LatexEscaped(Titled(c.metric)), LatexEscaped(c.expectation.source));
     for (const ComparedRun& run : c.runs) {
-      rows += fmt::format("\\texttt{{{}}} & {} & {} & {} & {} & {} \\\\\n",
-                          LatexEscaped(run.run_id), LatexNumber(c.paper),
-                          run.problem.empty() ? LatexNumber(run.ours) : LatexEscaped(run.problem),
-                          LatexNumber(run.difference),
+      const std::string result =
+          run.problem.empty()
+              ? fmt::format("{} & {}", LatexNumber(run.ours), LatexNumber(run.difference))
+              : fmt::format("\\multicolumn{{2}}{{l}}{{{}}}", LatexEscaped(run.problem));
+      rows += fmt::format("\\texttt{{{}}} & {} & {} & {} & {} \\\\\n", LatexEscaped(run.run_id),
+                          LatexNumber(c.paper), result,
                           c.target.empty() ? "--" : "$\\le$ " + LatexNumber(c.target),
                           LatexVerdict(run.verdict));
     }

@@ -74,9 +74,11 @@ TEST_F(PageTest, SetsPaperOursAndDifferenceSideBySide) {
       std::string difference = fmt::format("{:+.{}f}", ours - e.paper, decimals);
       if (difference[0] == '-') difference.replace(0, 1, "−");
       EXPECT_THAT(page_,
-                  HasSubstr(fmt::format("<td class=\"run\">{}</td><td class=\"n\">{:.{}f}</td>"
-                                        "<td class=\"n\">{:.{}f}</td><td class=\"n\">{}</td>",
-                                        run_id, e.paper, decimals, ours, decimals, difference)));
+                  HasSubstr(fmt::format(
+                      "<td class=\"run\">{}</td><td class=\"n\" data-label=\"paper\">{:.{}f}</td>"
+                      "<td class=\"n\" data-label=\"ours\">{:.{}f}</td>"
+                      "<td class=\"n\" data-label=\"difference\">{}</td>",
+                      run_id, e.paper, decimals, ours, decimals, difference)));
       EXPECT_THAT(page_, HasSubstr(e.source));
       EXPECT_THAT(page_, HasSubstr(e.remark));
     }

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "reports/axis.h"
 #include "reports/run_plots.h"
 #include "support/temporary_folder.h"
 
@@ -13,18 +14,39 @@ namespace vitruvia {
 namespace {
 using testing::HasSubstr;
 
-TEST(NiceTicks, AreRoundAndFew) {
-  for (const double end : {1e-4, 0.0317, 0.9, 1.0, 7.3, 25.0, 299.0, 12345.0}) {
-    const Ticks ticks = NiceTicks(end, 5);
-    const double mantissa = ticks.step / std::pow(10.0, std::floor(std::log10(ticks.step) + 1e-9));
-    EXPECT_THAT(mantissa,
-                testing::AnyOf(testing::DoubleNear(1.0, 1e-9), testing::DoubleNear(2.0, 1e-9),
-                               testing::DoubleNear(5.0, 1e-9)));
-    EXPECT_LE(end / ticks.step, 5.0 + 1e-9);
-    EXPECT_GT(end / ticks.step, 1.9);
-    // Printed ticks differ from each other.
-    EXPECT_GE(ticks.step, std::pow(10.0, -ticks.decimals) * (1.0 - 1e-9));
-  }
+TEST(RoundedUp, GivesOneTwoOrFive) {
+  EXPECT_DOUBLE_EQ(RoundedUp(1e-4), 1e-4);
+  EXPECT_DOUBLE_EQ(RoundedUp(0.011), 0.02);
+  EXPECT_DOUBLE_EQ(RoundedUp(0.2), 0.2);
+  EXPECT_DOUBLE_EQ(RoundedUp(2.0001), 5.0);
+  EXPECT_DOUBLE_EQ(RoundedUp(51.0), 100.0);
+  EXPECT_DOUBLE_EQ(RoundedUp(1000.0), 1000.0);
+}
+
+std::vector<std::string> Labels(const Axis& axis, int count) {
+  std::vector<std::string> labels;
+  for (const Tick& tick : axis.Ticks(count)) labels.push_back(tick.label);
+  return labels;
+}
+
+TEST(Axis, TicksAreRoundAndPrintedWithAsManyDecimalsAsTheyNeed) {
+  EXPECT_THAT(Labels(Axis::Linear(0.0317), 5),
+              testing::ElementsAre("0.00", "0.01", "0.02", "0.03"));
+  EXPECT_THAT(Labels(Axis::Linear(100.0), 5),
+              testing::ElementsAre("0", "20", "40", "60", "80", "100"));
+  EXPECT_THAT(Labels(Axis::Linear(299.0), 3), testing::ElementsAre("0", "100", "200"));
+  EXPECT_THAT(Labels(Axis::Logarithmic(3.0, 286.0), 5),
+              testing::ElementsAre("2", "5", "10", "20", "50", "100", "200", "500"));
+  EXPECT_THAT(Labels(Axis::Logarithmic(0.5, 0.5), 5), testing::ElementsAre("0.5", "1"));
+}
+
+TEST(Axis, SharesRunFromStartToEnd) {
+  EXPECT_DOUBLE_EQ(Axis::Linear(4.0).Share(1.0), 0.25);
+  const Axis decades = Axis::Logarithmic(1.0, 1000.0);
+  EXPECT_DOUBLE_EQ(decades.Share(1.0), 0.0);
+  EXPECT_DOUBLE_EQ(decades.Share(10.0), 1.0 / 3.0);
+  EXPECT_DOUBLE_EQ(decades.Share(1000.0), 1.0);
+  EXPECT_DOUBLE_EQ(decades.Share(0.0), 0.0);
 }
 
 ReportedExperiment TwoScenes() {

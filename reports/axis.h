@@ -1,0 +1,37 @@
+// Axes of plots: where a value lies, and which values are marked.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace vitruvia {
+
+enum class Scale { kLinear, kLogarithmic };
+
+struct Tick {
+  double value = 0.0;
+  std::string label;
+};
+
+class Axis {
+ public:
+  // From 0 to `end`, which must be positive.
+  static Axis Linear(double end);
+  // From the last of 1, 2, 5 × 10ⁿ not above `low` to the first not below `high`; both positive.
+  static Axis Logarithmic(double low, double high);
+
+  double Share(double value) const;  // 0 at the start, 1 at the end; values beyond are held there
+  // At round values: about `count` on a linear axis, each of 1, 2, 5 × 10ⁿ on a logarithmic one.
+  std::vector<Tick> Ticks(int count) const;
+
+ private:
+  Axis(Scale scale, double start, double end) : scale_(scale), start_(start), end_(end) {}
+
+  Scale scale_;
+  double start_, end_;
+};
+
+// The smallest of 1, 2, 5 × 10ⁿ not below `value`, which must be positive.
+double RoundedUp(double value);
+
+}  // namespace vitruvia
