@@ -90,26 +90,21 @@ class Exporter : public OpenMesh::IO::ExporterT<OpenMeshMesh> {
   const TriangleMesh& mesh_;
 };
 
-// While it lives, OpenMesh's complaints go into `text` instead of the user's terminal.
+// While it lives, OpenMesh's complaints go into `text_` instead of the user's terminal. (Its streams
+// have a disconnect() for this, which loses memory.)
 class CapturedMessages {
  public:
-  CapturedMessages() : lock_(Mutex()) {
-    omerr().disconnect(std::cerr);
-    omlog().disconnect(std::clog);
-    omerr().connect(text_);
-  }
+  CapturedMessages()
+      : lock_(Mutex()), errors_(omerr().rdbuf(text_.rdbuf())), log_(omlog().rdbuf(nullptr)) {}
   ~CapturedMessages() {
-    omerr().flush();
-    omerr().disconnect(text_);
-    omerr().connect(std::cerr);
-    omlog().connect(std::clog);
+    omerr().rdbuf(errors_);
+    omlog().rdbuf(log_);
   }
   CapturedMessages(const CapturedMessages&) = delete;
   CapturedMessages& operator=(const CapturedMessages&) = delete;
 
   // The first line, as the rest follows from it.
-  std::string FirstLine() {
-    omerr().flush();
+  std::string FirstLine() const {
     std::string line;
     std::istringstream lines(text_.str());
     std::getline(lines, line);
@@ -123,6 +118,7 @@ class CapturedMessages {
   }
   std::lock_guard<std::mutex> lock_;
   std::ostringstream text_;
+  std::streambuf *errors_, *log_;
 };
 
 enum class MeshFormat { kPly, kObj, kOff };
