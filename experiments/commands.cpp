@@ -103,7 +103,7 @@ struct Arguments {
 
 void AddCommands(CLI::App& app, Arguments& a) {
   app.set_version_flag("--version", VersionText());
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);  // CLI11's own demand for one would hide a misspelt command's name
   app.footer(kExitCodes);
 
   app.add_subcommand("list", "List methods and config files")->callback(List);
@@ -153,6 +153,9 @@ int RunCommandLine(int argc, const char* const* argv) {
   try {
     AddCommands(app, arguments);
     app.parse(argc, argv);
+    if (app.get_subcommands().empty()) {
+      throw ConfigError("expected a command: list, synth, track, run, report or explain (--help)");
+    }
     return static_cast<int>(ExitCode::kSuccess);
   } catch (const CLI::Success& success) {  // --help, --version
     return app.exit(success);

@@ -9,7 +9,7 @@ ZBuffer::ZBuffer(const PinholeCamera& camera, float near_m)
     : camera_(camera), near_m_(near_m), depth_(camera.width, camera.height) {}
 
 const DepthImage& ZBuffer::Render(const std::vector<Vector3f>& vertices_in_camera,
-                                  const std::vector<Triangle>& triangles) {
+                                  const std::vector<Triangle>& triangles) & {
   Project(vertices_in_camera);
   // The buffer holds 1/z while triangles are drawn (larger is nearer, 0 is empty).
   std::fill(depth_.pixels().begin(), depth_.pixels().end(), 0.0f);

@@ -15,9 +15,10 @@ class ZBuffer {
  public:
   explicit ZBuffer(const PinholeCamera& camera, float near_m = 0.05f);
 
-  // Draws into a cleared buffer. The result stays valid until the next call.
+  // Draws into a cleared buffer. The result stays valid until the next call, as long as this
+  // ZBuffer.
   const DepthImage& Render(const std::vector<Vector3f>& vertices_in_camera,
-                           const std::vector<Triangle>& triangles);
+                           const std::vector<Triangle>& triangles) &;
 
  private:
   void Project(const std::vector<Vector3f>& vertices_in_camera);

@@ -130,7 +130,7 @@ TEST_F(BodyFolder, RefusesWrongSubjects) {
   expect("\"male\"", "\"mail\"", "female");
   expect("\"left_forearm\"", "\"tail\"", "bone 6 is 'tail', expected 'left_forearm'");
   expect("\"version\": 1", "\"version\": 2", "version");
-  expect("70.0", "\"heavy\"", "weight: expected a number");
+  expect("70.0", "\"heavy\"", "weight_kg: expected a number");
   Damage("subject.json", good.substr(0, good.size() / 2));
   ExpectRefused("subject.json", "");
   Damage("subject.json", "[]");

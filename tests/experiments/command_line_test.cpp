@@ -155,7 +155,7 @@ TEST_F(CommandLine, TruthAsEstimateScoresExactlyZeroAndEverything) {
 }
 
 TEST_F(CommandLine, MisuseIsABadConfiguration) {
-  ExpectRefusal({}, ExitCode::kBadConfiguration, {"subcommand is required"});
+  ExpectRefusal({}, ExitCode::kBadConfiguration, {"expected a command"});
   ExpectRefusal({"rum"}, ExitCode::kBadConfiguration, {"rum"});
   ExpectRefusal({"synth"}, ExitCode::kBadConfiguration, {"SCENE.json -o DIR"});
   ExpectRefusal({"explain", "axis_wieght"}, ExitCode::kBadConfiguration,

@@ -80,7 +80,8 @@ struct TwoSquares {
 TEST(ZBuffer, DrawsTheNearerSurfaceWithPerspectiveDepth) {
   const PinholeCamera camera = SmallCamera();
   const TwoSquares scene;
-  const DepthImage& depth = ZBuffer(camera).Render(scene.vertices, scene.triangles);
+  ZBuffer squares(camera);
+  const DepthImage& depth = squares.Render(scene.vertices, scene.triangles);
   EXPECT_FLOAT_EQ(depth(20, 15), 1.0f);
   EXPECT_FLOAT_EQ(depth(5, 15), 2.0f);
   EXPECT_EQ(depth(0, 0), 0.0f);
