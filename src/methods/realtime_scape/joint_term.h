@@ -20,6 +20,10 @@ namespace vitruvia::realtime_scape {
 // Readings: τ_jl = Σ_i w_ij w_il over vertices (the paper prints a sum over bones), so each joint's
 // weights sum to 1; each joint counts once; joints are the edges of the bone tree. An edge whose
 // bones share no vertex is held at its joint position.
+//
+// Departure (default): the joint's own position instead of its vertices' mean. The shared vertices
+// lie around a joint, not on it; a limb that swings by 70 degrees about its joint would have to
+// part from a mean that lies 3 cm off it by as much.
 class JointTerm {
  public:
   JointTerm(const Model& model, JointRows rows);

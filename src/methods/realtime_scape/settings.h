@@ -1,5 +1,4 @@
-// Settings of Realtime SCAPE (paper A, sec. 6; "equations.md" numbers the places where it is
-// silent).
+// Settings of Realtime SCAPE (paper A, sec. 6).
 #pragma once
 
 #include "core/settings.h"
@@ -14,9 +13,9 @@ enum class SurfaceResidual {
            // slide
 };
 
-// How the vertices that two bones share hold the bones together.
+// What holds two neighbouring bones together.
 enum class JointRows {
-  kJointPosition,  // 3 rows for a joint: where the subject's skeleton has it
+  kJointPosition,  // ours: the joint as the subject's skeleton has it, 3 rows
   kMeanPoint,    // paper's count of rows (3 for a joint): the vertices' weighted mean on both bones
   kAllVertices,  // eq. 7 as printed: every shared vertex, exactly, through their moments
 };
