@@ -1,5 +1,6 @@
 #include "experiments/score.h"
 
+#include "body/skeleton.h"
 #include "core/error.h"
 #include "metrics/joint_error.h"
 #include "metrics/statistics.h"
@@ -14,11 +15,26 @@ struct JointErrorsByClass {
   std::map<std::string, std::vector<double>> per_joint;
 };
 
+// Joints are compared one to one, so both sides must speak of the same ones.
 void RequireMatch(const SequenceReader& sequence, const EstimateReader& estimate) {
-  if (static_cast<int>(estimate.frames().size()) != sequence.info().frames) {
-    throw DataError(fmt::format("{}: the estimate has {} frames, the sequence {}",
-                                sequence.folder().string(), estimate.frames().size(),
-                                sequence.info().frames));
+  const std::string where = sequence.folder().string();
+  const SequenceInfo& info = sequence.info();
+  if (static_cast<int>(estimate.frames().size()) != info.frames) {
+    throw DataError(fmt::format("{}: the estimate has {} frames, the sequence {}", where,
+                                estimate.frames().size(), info.frames));
+  }
+  for (int j = 0; j < kBoneCount; ++j) {
+    const std::string_view expected = Bones()[j].joint;
+    if (info.joints.size() == kBoneCount && info.joints[j] == expected) continue;
+    throw DataError(
+        fmt::format("{}: joint {} is \"{}\"; estimates are scored by {} joints, there \"{}\"",
+                    where, j, j < static_cast<int>(info.joints.size()) ? info.joints[j] : "missing",
+                    kBoneCount, expected));
+  }
+  for (const FrameEstimate& frame : estimate.frames()) {
+    if (frame.joints.size() == info.joints.size()) continue;
+    throw DataError(fmt::format("{}: the estimate has {} joints, the sequence {}", where,
+                                frame.joints.size(), info.joints.size()));
   }
 }
 

@@ -24,10 +24,10 @@ struct Candidate {
   }
 };
 
-using Corners = std::array<Vector3d, 3>;
+using TriangleCorners = std::array<Vector3d, 3>;
 
 // Tries a point of the triangle, given by its barycentric coordinates.
-void Try(const Vector3d& point, const Corners& corners, std::int32_t triangle,
+void Try(const Vector3d& point, const TriangleCorners& corners, std::int32_t triangle,
          const Vector3d& barycentric, Candidate& best) {
   const Vector3d on_triangle =
       barycentric[0] * corners[0] + barycentric[1] * corners[1] + barycentric[2] * corners[2];
@@ -37,7 +37,7 @@ void Try(const Vector3d& point, const Corners& corners, std::int32_t triangle,
 
 // The closest point is the foot of the perpendicular, or lies on a side. All are tried, so a
 // triangle without area, for which the first means nothing, is treated rightly too.
-void TryTriangle(const Vector3d& point, const Corners& corners, std::int32_t triangle,
+void TryTriangle(const Vector3d& point, const TriangleCorners& corners, std::int32_t triangle,
                  Candidate& best) {
   const Vector3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
   const Vector3d ap = point - corners[0], normal = ab.cross(ac);

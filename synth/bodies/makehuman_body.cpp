@@ -13,7 +13,6 @@ namespace {
 constexpr double kHeightTolerance_m = 1e-5;
 constexpr double kWeightTolerance_kg = 1e-3;
 constexpr int kMaxRootSteps = 60;
-constexpr double kMetresPerDecimetre = 0.1;
 
 // A root of an increasing function on [0, 1] by the Illinois method (false position that halves
 // the value of an end that stays); the nearer end if there is none.

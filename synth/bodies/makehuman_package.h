@@ -16,6 +16,7 @@ namespace vitruvia {
 inline constexpr int kMakeHumanBodyVertices = 13380;
 inline constexpr int kMakeHumanVertices = 19158;
 inline constexpr int kMakeHumanInfluences = 4;
+inline constexpr double kMetresPerDecimetre = 0.1;
 
 struct MakeHumanBone {
   std::string name;  // as joints and weights use it, e.g. "upperarm01.L____head"

@@ -10,8 +10,6 @@
 namespace vitruvia {
 namespace {
 
-constexpr double kMetresPerDecimetre = 0.1;
-
 constexpr const char* kProximal = "____head";  // suffix of a bone's joint and of its weights
 constexpr const char* kDistal = "____tail";
 

@@ -139,7 +139,7 @@ constexpr BodyRows kWoman{{
 constexpr int kHeadRows = kTrunkRows - kBodyRows;
 
 // A man's; a woman's is scaled by the survey's head girth.
-constexpr std::array<Row, kHeadRows> kHead{{
+constexpr std::array<Row, kHeadRows> kHeadSections{{
     // kThroat
     {{{0, 86.2, 4.4},
       {3.4, 86.6, 3.5},
@@ -255,7 +255,7 @@ Point Scaled(const Point& p, double factor) {
 
 Point PointOf(int row, int k, Sex sex) {
   if (row < kBodyRows) return (sex == Sex::kMale ? kMan : kWoman)[row][k];
-  const Point& point = kHead[row - kBodyRows][k];
+  const Point& point = kHeadSections[row - kBodyRows][k];
   const SurveyTable &men = Survey(Sex::kMale), &own = Survey(sex);
   return Scaled(point, row == kThroat ? own.neck.mean_m / men.neck.mean_m
                                       : own.head.mean_m / men.head.mean_m);

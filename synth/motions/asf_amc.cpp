@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <optional>
 
 #include "core/error.h"
+#include "math/angles.h"
 #include "synth/motions/mocap_words.h"
 
 namespace vitruvia {
@@ -15,7 +15,6 @@ using Word = MocapWords::Word;
 using Vector3d = Vector3<double>;
 using Eigen::Quaterniond;
 
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 constexpr const char* kRoot = "root";
 
 // One number of a bone's line in a motion file.

@@ -1,9 +1,9 @@
 #include "synth/motions/bvh.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "core/error.h"
+#include "math/angles.h"
 #include "synth/motions/mocap_words.h"
 
 namespace vitruvia {
@@ -12,10 +12,9 @@ namespace {
 using Word = MocapWords::Word;
 using Vector3d = Vector3<double>;
 
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 constexpr int kMaxDepth = 256;  // of nested joints: deeper is no body
 
-struct Channel {
+struct JointChannel {
   std::size_t joint = 0;
   int axis = 0;
   bool is_rotation = true;
@@ -106,7 +105,7 @@ class BvhReader {
     MocapFrame read;
     read.root_position = clip_.joints[0].offset;
     read.rotations.assign(clip_.joints.size(), Eigen::Quaterniond::Identity());
-    for (const Channel& channel : channels_) {
+    for (const JointChannel& channel : channels_) {
       if (words_.AtEnd()) {
         words_.Fail(words_.line(),
                     fmt::format("the file ends in frame {} of {}", frame + 1, count));
@@ -141,7 +140,7 @@ class BvhReader {
 
   MocapWords words_;
   MocapClip clip_;
-  std::vector<Channel> channels_;
+  std::vector<JointChannel> channels_;
 };
 
 }  // namespace

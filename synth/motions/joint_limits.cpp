@@ -15,7 +15,7 @@ constexpr std::array<AngleInfo, 3> kSpine{{
     {"bend_left_deg", "bends the trunk to the subject's left", -35.0, 35.0, kAaos},
     {"turn_left_deg", "turns the trunk to the subject's left", -45.0, 45.0, kAaos},
 }};
-constexpr std::array<AngleInfo, 3> kNeck{{
+constexpr std::array<AngleInfo, 3> kNeckAngles{{
     {"flexion_deg", "bends the head forward", -60.0, 50.0, kAma},
     {"bend_left_deg", "bends the head to the subject's left", -45.0, 45.0, kAaos},
     {"turn_left_deg", "turns the head to the subject's left", -80.0, 80.0, kAma},
@@ -51,7 +51,7 @@ constexpr std::array<AngleInfo, 2> kAnkle{{
 
 constexpr std::array<JointInfo, 2> kMidlineJoints{{
     {"spine", "", kSpineFlexion, kSpine},
-    {"neck", "", kNeckFlexion, kNeck},
+    {"neck", "", kNeckFlexion, kNeckAngles},
 }};
 constexpr std::array<JointInfo, 6> kSideJoints{{
     {"shoulder", "shoulders", kShoulderFlexion, kShoulder},

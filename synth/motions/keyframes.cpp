@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
+#include "math/angles.h"
 #include "synth/motions/keyframes_spline.h"
 
 namespace vitruvia {
 namespace {
 
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 constexpr double kPlantingStep_s = 1.0 / 120.0;  // of the integral over planted limbs
 
 constexpr double kWeightTransfer_s = 0.1;

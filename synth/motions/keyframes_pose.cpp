@@ -2,14 +2,14 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <fmt/format.h>
+
+#include "math/angles.h"
 
 namespace vitruvia {
 namespace {
 
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 constexpr const char* kSideNames[kSideCount] = {"left", "right"};
 
 Matrix3<double> Rotation(double x_deg, double y_deg, double z_deg) {

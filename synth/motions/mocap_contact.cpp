@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "synth/motions/smooth_step.h"
+
 namespace vitruvia {
 namespace {
 
@@ -86,11 +88,6 @@ std::vector<ContactPoint> ContactPoints(const MocapClip& clip, const MocapJoints
     points.push_back({joint, offset, fleshy.radius_of_leg * leg_length_m});
   }
   return points;
-}
-
-double SmoothStep(double u) {
-  u = std::clamp(u, 0.0, 1.0);
-  return u * u * (3.0 - 2.0 * u);
 }
 
 // The least height in a window round each frame, averaged over windows of the same width.

@@ -1,19 +1,16 @@
 #include "synth/motions/motion.h"
 
 #include <algorithm>
-#include <numbers>
 #include <stdexcept>
 
 #include "core/error.h"
+#include "math/angles.h"
 #include "synth/motions/keyframes.h"
 #include "synth/motions/mocap.h"
+#include "synth/motions/smooth_step.h"
 
 namespace vitruvia {
 namespace {
-
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
-
-double SmoothStep(double u) { return u * u * (3.0 - 2.0 * u); }
 
 // The subject stands in the rest pose, goes over into the motion's pose at start_s, and from there
 // on does the motion. The motion is shifted and turned on the floor so that at its start the pelvis

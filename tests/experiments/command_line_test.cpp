@@ -232,6 +232,17 @@ TEST_F(CommandLine, EmptySequencesImagesWithoutSizeAndTooFewWeightsAreBadData) {
                 ExitCode::kBadData, {"weights.bin"});
 }
 
+TEST_F(CommandLine, SequencesOfOtherJointsAreNotScored) {
+  const std::string sequence = Sequence();
+  for (const char* file : {"sequence.json", "truth/joints.json"}) {
+    Json json = ReadJsonFile(fs::path(sequence) / file);
+    json["joints"][4] = "left_ear";
+    Write(fs::path(sequence) / file, json);
+  }
+  ExpectRefusal({"track", File("method.json"), "--sequence", sequence, "-o", File("estimate")},
+                ExitCode::kBadData, {"joint 4 is \"left_ear\"", "there \"head\""});
+}
+
 TEST_F(CommandLine, MissingInputsAndUnwritableOutputsAreTold) {
   ExpectRefusal({"track", File("method.json"), "--sequence", File("nowhere"), "-o", File("e")},
                 ExitCode::kBadData, {"nowhere"});

@@ -5,18 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "tests/math/random_rigid.h"
 
 namespace vitruvia {
 namespace {
 
 using Vec = Vector3<double>;
 using Dual = DualQuaternion<double>;
-
-Rigidd RandomRigid(RandomStream& random) {
-  const Vec axis = Vec(random.Normal(), random.Normal(), random.Normal()).normalized();
-  return {ExpSo3<double>(random.Uniform(0.0, std::numbers::pi) * axis),
-          {random.Normal(), random.Normal(), random.Normal()}};
-}
 
 void ExpectEqual(const Rigidd& a, const Rigidd& b, double tolerance) {
   EXPECT_LT((a.rotation - b.rotation).cwiseAbs().maxCoeff(), tolerance);

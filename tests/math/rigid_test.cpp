@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "tests/math/random_rigid.h"
 
 namespace vitruvia {
 namespace {
@@ -15,10 +16,6 @@ using Mat = Matrix3<double>;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kExact = 1e-14;  // some tens of roundings of numbers near 1
-
-Vec RandomDirection(RandomStream& random) {
-  return Vec(random.Normal(), random.Normal(), random.Normal()).normalized();
-}
 
 // At zero, next to it, on both sides of where ExpSo3 changes its formula, anywhere, and near π.
 std::vector<Vec> RotationVectors() {
@@ -31,11 +28,6 @@ std::vector<Vec> RotationVectors() {
     vectors.push_back(random.Uniform(0.0, 3.1) * RandomDirection(random));
   }
   return vectors;
-}
-
-Rigidd RandomRigid(RandomStream& random) {
-  return {ExpSo3<double>(random.Uniform(0.0, kPi) * RandomDirection(random)),
-          3.0 * RandomDirection(random)};
 }
 
 TEST(ExpSo3, IsAProperRotation) {

@@ -20,7 +20,7 @@ namespace {
 constexpr double kUnit_m = 0.05;
 constexpr int kUnknowns = kBoneCount * kBlockSize;
 const PinholeCamera kCamera;
-const Rigidd kCameraFromSubject{Vector3d(1, -1, -1).asDiagonal(), {0.1, 0.9, 2.8}};
+const Rigidd kCameraFromRest{Vector3d(1, -1, -1).asDiagonal(), {0.1, 0.9, 2.8}};
 
 Vector3d RandomVector(RandomStream& random, double size) {
   return {random.Normal(0, size), random.Normal(0, size), random.Normal(0, size)};
@@ -29,7 +29,7 @@ Vector3d RandomVector(RandomStream& random, double size) {
 BodyPose RestPose(const Model& model) {
   BodyPose pose;
   for (int j = 0; j < kBoneCount; ++j) {
-    pose[j] = {kCameraFromSubject.rotation, kCameraFromSubject * model.rest_centers[j]};
+    pose[j] = {kCameraFromRest.rotation, kCameraFromRest * model.rest_centers[j]};
   }
   return pose;
 }

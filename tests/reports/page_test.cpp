@@ -9,6 +9,7 @@
 #include "reports/html_page.h"
 #include "reports/synthetic_experiment.h"
 #include "reports/tables.h"
+#include "support/count.h"
 #include "support/temporary_folder.h"
 
 namespace vitruvia {
@@ -31,14 +32,6 @@ std::vector<std::vector<std::string>> ReadCsv(const std::string& text) {
     }
   }
   return rows;
-}
-
-std::size_t Count(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
-    ++count;
-  }
-  return count;
 }
 
 class PageTest : public testing::Test {

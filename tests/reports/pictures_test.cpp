@@ -85,7 +85,8 @@ TEST(MeshView, SeesWhatThePinholeCameraSees) {
     posed.emplace_back(v.x() + 0.2f, 1.0f - v.y(), 2.5f - v.z());
   }
   const PinholeCamera camera{160, 120, 130.0, 140.0, 70.0, 55.0};
-  const DepthImage depth = ZBuffer(camera).Render(posed, body.rest.triangles);
+  ZBuffer zbuffer(camera);
+  const DepthImage& depth = zbuffer.Render(posed, body.rest.triangles);
   MeshView view(camera.width, camera.height);
   const ColorImage image =
       view.Draw(camera, {0.0, 0.0, 160.0, 120.0}, {{&posed, &body.rest.triangles, {kTruthColor}}});

@@ -14,6 +14,7 @@
 #include "records/run_record.h"
 #include "reports/synthetic_experiment.h"
 #include "reports/tables.h"
+#include "support/count.h"
 #include "support/temporary_folder.h"
 
 namespace vitruvia {
@@ -75,14 +76,6 @@ PngFacts ReadPng(const fs::path& file) {
   const int count = facts.width * facts.height * image->GetNumberOfScalarComponents();
   for (int i = 1; i < count; ++i) facts.uniform = facts.uniform && bytes[i] == bytes[0];
   return facts;
-}
-
-std::size_t Count(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
-    ++count;
-  }
-  return count;
 }
 
 // What the page refers to and is made of.

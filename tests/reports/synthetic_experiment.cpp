@@ -17,7 +17,7 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kSequence = "sequences/wave";
 
 PinholeCamera Camera() { return {160, 120, 142.5, 142.5, 79.5, 59.5}; }
@@ -102,7 +102,7 @@ void WriteRun(const fs::path& experiment, RunRecord run, const BodyModel& body, 
     const std::vector<double> errors = VertexErrors(estimate.vertices, truth.vertices);
     run.frames["l2_mean_m"].push_back(Mean(errors));
     run.frames["l2_max_m"].push_back(Maximum(errors));
-    run.frames["l2_mean_hidden_m"].push_back(kNan);
+    run.frames["l2_mean_hidden_m"].push_back(kNoValue);
     run.frames["frame_ms"].push_back(frame_ms.back());
     run.frames["failed"].push_back(failed ? 1.0 : 0.0);
     for (const double e : JointErrors(estimate.joints, truth.joints)) joint_errors.push_back(e);
@@ -112,7 +112,7 @@ void WriteRun(const fs::path& experiment, RunRecord run, const BodyModel& body, 
   for (const std::string joints : {"all", "visible"}) {
     run.joint_accuracy[joints] = AccuracyCurve(joint_errors, run.threshold_m);
   }
-  run.joint_accuracy["hidden"].assign(run.threshold_m.size(), kNan);
+  run.joint_accuracy["hidden"].assign(run.threshold_m.size(), kNoValue);
   run.summary = {{"run_id", run.run_id},
                  {"variant", run.variant},
                  {"scene", run.scene},
@@ -139,7 +139,7 @@ ExperimentRecord Experiment() {
   e.expectations = {
       {"l2_mean_of_diagonal", 0.001, 0.001, "paper A, figure 11",
        "a figure of boxes, not a person"},
-      {"l2_max_of_diagonal", 0.03, kNan, "paper A, figure 11", "a figure of boxes, not a person"},
+      {"l2_max_of_diagonal", 0.03, kNoValue, "paper A, figure 11", "a figure of boxes, not a person"},
       {"frame_ms_median", 25.0, 25.0, "paper A, table 1", "another CPU"}};
   e.picture_frames = {0, kPictureFrame, 999};  // the last is beyond the sequence's end
   e.run_ids = {kWavingRun, kExactRun, kOtherScene, kFailedRun, kMissingRun};
