@@ -90,8 +90,8 @@ class Exporter : public OpenMesh::IO::ExporterT<OpenMeshMesh> {
   const TriangleMesh& mesh_;
 };
 
-// While it lives, OpenMesh's complaints go into `text_` instead of the user's terminal. (Its streams
-// have a disconnect() for this, which loses memory.)
+// While it lives, OpenMesh's complaints go into `text_` instead of the user's terminal. (Its
+// streams have a disconnect() for this, which loses memory.)
 class CapturedMessages {
  public:
   CapturedMessages()

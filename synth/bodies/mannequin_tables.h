@@ -2,8 +2,8 @@
 //
 // Girths: means and standard deviations of ANSUR II, the 2012 anthropometric survey of U.S. Army
 // personnel (Gordon et al. 2014, NATICK/TR-15/007; 4,082 men, 1,986 women), rounded to millimetres.
-// Women's calf and ankle are estimated from published percentiles, within about a percent. Not every
-// figure has been read again from the report itself: take the last digit as uncertain.
+// Women's calf and ankle are estimated from published percentiles, within about a percent. Not
+// every figure has been read again from the report itself: take the last digit as uncertain.
 // Lengths: fractions of stature H. Legs after Drillis & Contini 1966 (as in Winter 2009, fig. 4.1);
 // arms between joint centres after de Leva 1996, whose arms and shoulders add up to the measured
 // span, which those of Drillis & Contini exceed by a tenth.

@@ -136,11 +136,11 @@ ExperimentRecord Experiment() {
   e.name = "synthetic";
   e.title = "A figure of boxes <waving>";
   e.description = "Three runs, one that failed & one that is missing.";
-  e.expectations = {
-      {"l2_mean_of_diagonal", 0.001, 0.001, "paper A, figure 11",
-       "a figure of boxes, not a person"},
-      {"l2_max_of_diagonal", 0.03, kNoValue, "paper A, figure 11", "a figure of boxes, not a person"},
-      {"frame_ms_median", 25.0, 25.0, "paper A, table 1", "another CPU"}};
+  e.expectations = {{"l2_mean_of_diagonal", 0.001, 0.001, "paper A, figure 11",
+                     "a figure of boxes, not a person"},
+                    {"l2_max_of_diagonal", 0.03, kNoValue, "paper A, figure 11",
+                     "a figure of boxes, not a person"},
+                    {"frame_ms_median", 25.0, 25.0, "paper A, table 1", "another CPU"}};
   e.picture_frames = {0, kPictureFrame, 999};  // the last is beyond the sequence's end
   e.run_ids = {kWavingRun, kExactRun, kOtherScene, kFailedRun, kMissingRun};
   e.failed_runs = {{kFailedRun, "sequences/turn/depth/000003.png: file is cut short"}};
