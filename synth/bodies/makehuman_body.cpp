@@ -113,21 +113,35 @@ MakeHumanMeasures Measure(const MakeHumanPackage& package, const std::vector<Vec
   return {Height_m(vertices), kCubed * EnclosedVolume(Triangulated(body))};
 }
 
+MakeHumanBodies::MakeHumanBodies(const std::filesystem::path& folder)
+    : morph_(MakeHumanPackage::Read(folder)),
+      tpose_(morph_.package()),
+      weights_(MergedWeights(morph_.package())),
+      reference_(tpose_.Apply(morph_.package().vertices).body_vertices) {}
+
+ControlBody MakeHumanBodies::Make(const MakeHumanSliders& sliders, Sex sex) {
+  TPosedMakeHuman posed = tpose_.Apply(morph_.Vertices(sliders));
+  ControlBody body;
+  body.cage = {std::move(posed.body_vertices), morph_.package().body_quads};
+  body.weights = Dense(weights_, kBoneCount);
+  body.skeleton = posed.skeleton;
+  const auto [lowest, highest] =
+      std::minmax_element(body.cage.vertices.begin(), body.cage.vertices.end(),
+                          [](const Vector3f& a, const Vector3f& b) { return a.y() < b.y(); });
+  body.attributes = {static_cast<double>(highest->y() - lowest->y()),
+                     EnclosedVolume(Triangulated(body.cage)) * BodyDensity(sex), sex};
+  body.name =
+      fmt::format("makehuman, {}, {:.2f} m, {:.1f} kg", sex == Sex::kMale ? "male" : "female",
+                  body.attributes.height_m, body.attributes.weight_kg);
+  body.reference_vertices = reference_;
+  return body;
+}
+
 ControlBody MakeMakeHumanBody(const BodySettings& settings) {
   MakeHumanMorph morph(MakeHumanPackage::Read(settings.makehuman_folder));
   const MakeHumanSliders sliders = SliderSearch(morph, settings).Find();
-  const MakeHumanTPose tpose(morph.package());
-  TPosedMakeHuman posed = tpose.Apply(morph.Vertices(sliders));
-
-  ControlBody body;
-  body.name = fmt::format("makehuman, {}, {:.2f} m, {:.1f} kg",
-                          settings.sex == Sex::kMale ? "male" : "female", settings.height_m,
-                          settings.weight_kg);
-  body.cage = {std::move(posed.body_vertices), morph.package().body_quads};
-  body.weights = Dense(MergedWeights(morph.package()), kBoneCount);
-  body.skeleton = posed.skeleton;
+  ControlBody body = MakeHumanBodies(settings.makehuman_folder).Make(sliders, settings.sex);
   body.attributes = {settings.height_m, settings.weight_kg, settings.sex};
-  body.reference_vertices = tpose.Apply(morph.package().vertices).body_vertices;
   return body;
 }
 

@@ -4,6 +4,7 @@
 
 #include "synth/bodies/body_source.h"
 #include "synth/bodies/makehuman_morph.h"
+#include "synth/bodies/makehuman_tpose.h"
 
 namespace vitruvia {
 
@@ -13,6 +14,23 @@ struct MakeHumanMeasures {
   double volume_m3 = 0.0;
 };
 MakeHumanMeasures Measure(const MakeHumanPackage& package, const std::vector<Vector3f>& vertices);
+
+// Bodies of one package by their sliders. Targets are read when first needed and kept.
+class MakeHumanBodies {
+ public:
+  // ConfigError if the folder is no such package.
+  explicit MakeHumanBodies(const std::filesystem::path& folder);
+
+  // Brought to the T-pose; sex, height and weight (volume × density) are those of the mesh, `sex`
+  // decides on the density.
+  ControlBody Make(const MakeHumanSliders& sliders, Sex sex);
+
+ private:
+  MakeHumanMorph morph_;
+  MakeHumanTPose tpose_;
+  SkinWeights weights_;
+  std::vector<Vector3f> reference_;  // the package's neutral body
+};
 
 // The cage is the package's body of 13,380 vertices and 13,378 quads, brought to the T-pose; the
 // height and weight sliders are solved so that it is height_m tall and its volume × density is
