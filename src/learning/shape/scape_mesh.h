@@ -1,0 +1,44 @@
+// SCAPE's mesh solve (paper A, eq. 1; Anguelov et al. 2005): the surface whose triangles come
+// nearest to wanted deformations of a template's.
+//
+// For triangle k with edges e_kn = v_kn − v_k1 (n = 2, 3) of the template it minimises
+// Σ_k Σ_n ‖Q_k Θ_k e_kn − (v_kn − v_k1)‖². The system's matrix depends on the topology alone: it is
+// factorised once. A surface's position is not determined by its edges; all surfaces here have
+// their vertices' mean at the origin unless said otherwise.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "geometry/mesh.h"
+
+namespace vitruvia {
+
+class ScapeMesh {
+ public:
+  // DataError if the mesh falls apart into several pieces or has degenerate triangles.
+  explicit ScapeMesh(const TriangleMesh& rest);
+  ~ScapeMesh();
+
+  std::size_t triangle_count() const;
+
+  // One Q and one Θ per triangle; the vertices' mean is the template's. Identities give the
+  // template back.
+  std::vector<Vector3d> Solve(const std::vector<Matrix3<double>>& pose,
+                              const std::vector<Matrix3<double>>& shape) const;
+
+  // 3V × N from 9T × N: each column holds the triangles' deformations D_k = Q_k Θ_k one after the
+  // other, column by column. Linear in D.
+  Eigen::MatrixXd Integrate(const Eigen::Ref<const Eigen::MatrixXf>& deformations) const;
+
+  // The deformations of a surface of the same topology: 9T. Edges alone leave D_k free along the
+  // triangle's normal; there D_k scales by the square root of the triangle's area (Sumner & Popović
+  // 2004), which the solve does not look at.
+  Eigen::VectorXf Deformations(const std::vector<Vector3f>& vertices) const;
+
+ private:
+  struct Factorization;
+  std::unique_ptr<Factorization> factorization_;
+};
+
+}  // namespace vitruvia

@@ -1,0 +1,73 @@
+// The space of body shapes (paper A, sec. 4: Θ = U θ + μ), learnt from a body database.
+//
+// Both forms end as one linear model of vertices, for SCAPE's mesh solve is linear in Θ when nobody
+// moves (Q = I): v = mean + basis · θ, with θ in standard deviations of the database's people.
+// Surfaces are centred: the mean of a body's vertices is the origin until PlacedBody() sets its
+// feet on the floor.
+#pragma once
+
+#include <filesystem>
+
+#include "core/settings.h"
+#include "learning/shape/body_database.h"
+
+namespace vitruvia {
+
+enum class ShapeForm {
+  kVertices,  // principal components of vertex positions
+  kScape,     // of triangle deformations (SCAPE), integrated to vertices
+};
+
+struct ShapeSpaceSettings {
+  ShapeForm form = ShapeForm::kVertices;
+  int components = 40;
+
+  void Describe(Fields& fields);
+};
+
+inline constexpr int kAttributeCount = 3;  // height (m), weight (kg), sex (0 female, 1 male)
+Eigen::Vector3d AttributeVector(const BodyAttributes& attributes);
+
+struct ShapeSpace {
+  BodyModel reference;         // topology and weights; its vertices are one subject's
+  Eigen::VectorXf mean;        // 3V, metres, centred
+  Eigen::MatrixXf basis;       // 3V × K, metres per standard deviation
+  Eigen::VectorXd joint_mean;  // 6 × 17: joints, then tips, relative to the vertices' mean
+  Eigen::MatrixXd joint_basis;      // 102 × K, by regression
+  Eigen::Vector3d attribute_mean;   // see AttributeVector
+  Eigen::MatrixXd attribute_basis;  // 3 × K, by regression: the attributes' directions
+
+  int components() const { return static_cast<int>(basis.cols()); }
+};
+
+// The space of the given subjects of a database (indices). DataError if they are fewer than two or
+// than the components ask for.
+ShapeSpace LearnShapeSpace(const BodyDatabase& database, const std::vector<int>& subjects,
+                           const ShapeSpaceSettings& settings);
+
+// The surface of coefficients θ (up to K of them), centred.
+std::vector<Vector3f> Shape(const ShapeSpace& space, const Eigen::VectorXd& theta);
+
+// The body of coefficients θ: surface with feet on y = 0, regressed joints, and the attributes of
+// its surface (weight by `density_kg_m3`).
+BodyModel PlacedBody(const ShapeSpace& space, const Eigen::VectorXd& theta, Sex sex,
+                     double density_kg_m3);
+
+// How well the first k components represent people that were not learnt from: each subject's
+// best coefficients in the least-squares sense, and what is left.
+struct HeldOutError {
+  int components = 0;
+  double mean_m = 0.0;  // over vertices and subjects
+  double p95_m = 0.0;
+  double max_m = 0.0;
+};
+std::vector<HeldOutError> HeldOutErrors(const ShapeSpace& space, const BodyDatabase& database,
+                                        const std::vector<int>& subjects,
+                                        const std::vector<int>& component_counts);
+
+// On disk, a folder: space.json (number of components), one .bin for each matrix above (mean and basis
+// float32, the others float64, column-major, little-endian), reference/ (a body).
+void WriteShapeSpace(const std::filesystem::path& folder, const ShapeSpace& space);
+ShapeSpace ReadShapeSpace(const std::filesystem::path& folder);
+
+}  // namespace vitruvia
