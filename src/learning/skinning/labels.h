@@ -1,0 +1,32 @@
+// One bone per vertex, which bones are neighbours, and which bones may move which vertex.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "body/skinning.h"
+
+namespace vitruvia::skinning {
+
+using Labels = std::vector<std::uint8_t>;                  // V, a bone each
+using BoneGraph = std::vector<std::vector<std::uint8_t>>;  // per bone its neighbours, ascending
+
+// "" if labels are valid for that many vertices and bones, otherwise what is wrong.
+std::string LabelsProblem(std::span<const std::uint8_t> labels, std::size_t vertex_count,
+                          int bone_count);
+
+Labels HeaviestBones(const SkinWeights& weights);
+
+// Bones are neighbours if an edge of the surface joins vertices of theirs. With `most_neighbours`
+// (≥ 1), each bone keeps only those it shares most edges with (paper A, sec. 4: at most 3).
+BoneGraph NeighboursOnSurface(std::span<const std::uint8_t> labels,
+                              const std::vector<Triangle>& triangles, int bone_count,
+                              int most_neighbours);
+
+// Per bone, itself and those within that many steps of the graph, nearest first, at most `most`
+// (≥ 1); among equally near ones those of lower index.
+BoneGraph BonesWithin(const BoneGraph& neighbours, int steps, int most);
+
+}  // namespace vitruvia::skinning

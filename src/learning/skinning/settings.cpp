@@ -1,0 +1,64 @@
+#include "learning/skinning/settings.h"
+
+#include "learning/skinning/simplex_qp.h"
+
+namespace vitruvia::skinning {
+
+void Settings::Describe(Fields& f) {
+  f.Integer("alternations", alternations,
+            {.meaning = "at most so many rounds of weights, then transforms",
+             .min = 0,
+             .max = 10000,
+             .origin = Origin::kPaper,
+             .source = "paper A, sec. 4: 20"});
+  f.Integer("influences", influences,
+            {.meaning = "most bones that move one vertex",
+             .min = 1,
+             .max = kMaxInfluences,
+             .origin = Origin::kPaper,
+             .source = "paper A, eq. 2: |N| = 4"});
+  f.Integer("neighbours", neighbours,
+            {.meaning = "most neighbours of a bone",
+             .min = 1,
+             .max = kMaxCandidates,
+             .origin = Origin::kPaper,
+             .source = "paper A, sec. 4: 3"});
+  f.Integer("neighbour_steps", neighbour_steps,
+            {.meaning = "a vertex may follow bones so many neighbours away from its label's",
+             .min = 0,
+             .max = 16,
+             .origin = Origin::kTuned,
+             .source = "paper A: 1"});
+  f.Choice(
+      "transforms", transforms,
+      {{"closed_form", TransformSolver::kClosedForm}, {"linearised", TransformSolver::kLinearised}},
+      {.meaning = "how bones are fitted: one after the other in closed form (Le & Deng 2012), "
+                  "or all of a pose together with linearised rotations",
+       .origin = Origin::kPaper,
+       .source = "paper A, sec. 4"});
+  f.Integer("transform_steps", transform_steps,
+            {.meaning = "linearised solves, or rounds over all bones, in an alternation",
+             .min = 1,
+             .max = 100,
+             .origin = Origin::kTuned,
+             .source = "paper A: 1"});
+  f.Integer(
+      "history", history,
+      {.meaning = "earlier alternations from which the next is extrapolated (Anderson); 0: none",
+       .min = 0,
+       .max = 32,
+       .origin = Origin::kTuned,
+       .source = "the papers: 0"});
+  f.Number("least_gain", least_gain,
+           {.meaning = "the end is reached when an alternation lowers the RMSE by a smaller share",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kTuned});
+  f.Integer("threads", threads,
+            {.meaning = "threads; the result does not depend on their number",
+             .min = 1,
+             .max = 64,
+             .origin = Origin::kInput});
+}
+
+}  // namespace vitruvia::skinning
