@@ -81,6 +81,22 @@ class TemplateMisfit {
   std::size_t count_ = 0;
 };
 
+// "" for the ideal sensor.
+std::string SensorDifference(const SensorSettings& sensor) {
+  switch (sensor.model) {
+    case SensorModel::kIdeal:
+      return "";
+    case SensorModel::kGaussian:
+      return fmt::format("depth noise of {:g} m and dropout of {:g}", sensor.sigma_m,
+                         sensor.dropout);
+    case SensorModel::kKinectV1:
+      return fmt::format("depth as structured light measures it, dropout of {:g}", sensor.dropout);
+    case SensorModel::kKinectOne:
+      return fmt::format("depth as time of flight measures it, dropout of {:g}", sensor.dropout);
+  }
+  return "";
+}
+
 // Where the generator and a tracker's model differ: a score says little without it.
 std::vector<std::string> Differences(const SceneSettings& s, const BodyModel& truth,
                                      const BodyModel& subject) {
@@ -97,10 +113,8 @@ std::vector<std::string> Differences(const SceneSettings& s, const BodyModel& tr
         fmt::format("skinning weights diffused over {} steps in the truth, {} in the template",
                     s.truth.refinement.weight_diffusion, s.subject.weight_diffusion));
   }
-  if (s.sensor.model == SensorModel::kGaussian) {
-    differences.push_back(fmt::format("depth noise of {:g} m and dropout of {:g}", s.sensor.sigma_m,
-                                      s.sensor.dropout));
-  }
+  const std::string sensor = SensorDifference(s.sensor);
+  if (!sensor.empty()) differences.push_back(sensor);
   return differences;
 }
 
@@ -197,19 +211,32 @@ void RecordSequence(const SceneSettings& settings, const BodyModel& truth, const
   DepthRenderer renderer(camera, kNearM, kFarM);
   ViewWatch watch(camera);
   TemplateMisfit misfit(subject, truth);
+  const auto seed = static_cast<std::uint64_t>(settings.seed);
+  const std::vector<bool> lost = LostFrames(settings.sensor.delivery, settings.frames, seed);
   {
     Progress progress("synth " + folder.filename().string(), settings.frames);
     for (int frame = 0; frame < settings.frames; ++frame) {
-      const MotionSample sample = motion.At(frame / settings.fps);
-      const PosedBody posed = Pose(truth, sample, settings.truth.skinning, camera_from_subject);
+      const double time_s = frame / settings.fps;
+      const auto posed_at = [&](double t) {
+        return Pose(truth, motion.At(t), settings.truth.skinning, camera_from_subject);
+      };
+      const PosedBody posed = posed_at(time_s);
       RequireInRange(posed.vertices, frame);
       watch.Look(posed.vertices, frame);
       misfit.Add(posed);
       const DepthImage true_depth = renderer.Render(posed.vertices, truth.rest.triangles);
-      RandomStream noise(static_cast<std::uint64_t>(settings.seed),
-                         fmt::format("sensor/{}", frame));
-      writer.Append(Measure(true_depth, settings.sensor, noise), posed.vertices,
-                    {posed.joints, VisibleJoints(posed.joints, true_depth, camera)});
+      const JointTruth joints{posed.joints, VisibleJoints(posed.joints, true_depth, camera)};
+      RandomStream noise(seed, fmt::format("sensor/{}", frame));
+      const double capture_time_s = CaptureTime(settings.sensor.delivery, time_s);
+      DepthImage measured(camera.width, camera.height);
+      if (!lost[frame]) {
+        const DepthImage captured =
+            capture_time_s == time_s
+                ? true_depth
+                : renderer.Render(posed_at(capture_time_s).vertices, truth.rest.triangles);
+        measured = Measure(captured, camera, settings.sensor, noise);
+      }
+      writer.Append(measured, posed.vertices, joints);
       progress.Advance();
     }
   }

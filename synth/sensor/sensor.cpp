@@ -3,11 +3,35 @@
 #include <algorithm>
 
 namespace vitruvia {
+namespace {
+
+DepthImage WithGaussianNoise(const DepthImage& true_depth, double sigma_m, RandomStream& random) {
+  DepthImage measured = true_depth;
+  for (float& depth : measured.pixels()) {
+    if (depth <= 0.0f) continue;
+    depth = static_cast<float>(std::max(random.Normal(depth, sigma_m), 0.0));
+  }
+  return measured;
+}
+
+// From a stream of its own: a change of dropout must not change the noise.
+void DropPixels(double share, RandomStream random, DepthImage& measured) {
+  for (float& depth : measured.pixels()) {
+    if (random.Uniform() < share) depth = 0.0f;
+  }
+}
+
+}  // namespace
 
 void SensorSettings::Describe(Fields& f) {
-  f.Choice("model", model, {{"ideal", SensorModel::kIdeal}, {"gaussian", SensorModel::kGaussian}},
-           {.meaning = "ideal: true depth, only rounded to depth_unit_m; "
-                       "gaussian: independent noise and dropout at each pixel"});
+  f.Choice("model", model,
+           {{"ideal", SensorModel::kIdeal},
+            {"gaussian", SensorModel::kGaussian},
+            {"kinect_v1", SensorModel::kKinectV1},
+            {"kinect_one", SensorModel::kKinectOne}},
+           {.meaning = "ideal: true depth, only rounded to depth_unit_m; gaussian: independent "
+                       "noise at each pixel; kinect_v1: structured light; kinect_one: time of "
+                       "flight"});
   if (f.Applies(model == SensorModel::kGaussian)) {
     f.Number("sigma_m", sigma_m,
              {.meaning = "gaussian: standard deviation of depth",
@@ -16,9 +40,18 @@ void SensorSettings::Describe(Fields& f) {
               .max = 1.0,
               .origin = Origin::kGuessed,
               .source = "time of flight at 1 to 3 m: 1 to 3 mm"});
-    f.Number(
-        "dropout", dropout,
-        {.meaning = "gaussian: share of pixels without a measurement", .min = 0.0, .max = 1.0});
+  }
+  if (f.Applies(model == SensorModel::kKinectV1)) {
+    f.Section("kinect_v1", kinect_v1, {.meaning = "structured light"});
+  }
+  if (f.Applies(model == SensorModel::kKinectOne)) {
+    f.Section("kinect_one", kinect_one, {.meaning = "time of flight"});
+  }
+  if (f.Applies(model != SensorModel::kIdeal)) {
+    f.Number("dropout", dropout,
+             {.meaning = "share of pixels without a measurement, beside what the model loses",
+              .min = 0.0,
+              .max = 1.0});
   }
   f.Number("depth_unit_m", depth_unit_m,
            {.meaning = "step of stored depth",
@@ -27,19 +60,28 @@ void SensorSettings::Describe(Fields& f) {
             .max = 0.1,
             .origin = Origin::kGuessed,
             .source = "depth cameras commonly store millimetres"});
+  f.Section("delivery", delivery, {.meaning = "which frames arrive, and when"});
 }
 
-DepthImage Measure(const DepthImage& true_depth, const SensorSettings& settings,
-                   RandomStream& random) {
+DepthImage Measure(const DepthImage& true_depth, const PinholeCamera& camera,
+                   const SensorSettings& settings, RandomStream& random) {
   if (settings.model == SensorModel::kIdeal) return true_depth;
-  DepthImage measured = true_depth;
-  for (float& depth : measured.pixels()) {
-    if (depth <= 0.0f) continue;
-    // Both numbers are drawn at every pixel: a change of dropout must not change the noise.
-    const bool dropped = random.Uniform() < settings.dropout;
-    const double noisy = random.Normal(depth, settings.sigma_m);
-    depth = dropped ? 0.0f : static_cast<float>(std::max(noisy, 0.0));
+  const RandomStream dropout_stream(random.NextBits(), "dropout");
+  DepthImage measured;
+  switch (settings.model) {
+    case SensorModel::kIdeal:
+      break;
+    case SensorModel::kGaussian:
+      measured = WithGaussianNoise(true_depth, settings.sigma_m, random);
+      break;
+    case SensorModel::kKinectV1:
+      measured = MeasureByStructuredLight(true_depth, camera, settings.kinect_v1, random);
+      break;
+    case SensorModel::kKinectOne:
+      measured = MeasureByTimeOfFlight(true_depth, camera, settings.kinect_one, random);
+      break;
   }
+  DropPixels(settings.dropout, dropout_stream, measured);
   return measured;
 }
 

@@ -1,25 +1,33 @@
-// Sensor models: what a depth camera makes of true depth.
+// Sensor models: what a depth camera makes of true depth, and which frames arrive when.
 #pragma once
 
 #include "core/random.h"
 #include "core/settings.h"
+#include "geometry/camera.h"
 #include "geometry/image.h"
+#include "synth/sensor/delivery.h"
+#include "synth/sensor/structured_light.h"
+#include "synth/sensor/time_of_flight.h"
 
 namespace vitruvia {
 
-enum class SensorModel { kIdeal, kGaussian };
+enum class SensorModel { kIdeal, kGaussian, kKinectV1, kKinectOne };
 
 struct SensorSettings {
   SensorModel model = SensorModel::kIdeal;
   double sigma_m = 0.002;       // gaussian: standard deviation of depth
-  double dropout = 0.0;         // share of pixels without a measurement
+  double dropout = 0.0;         // share of pixels without a measurement; not of the ideal one
   double depth_unit_m = 0.001;  // step of stored depth
+  StructuredLightSettings kinect_v1{};
+  TimeOfFlightSettings kinect_one{};
+  DeliverySettings delivery{};
 
   void Describe(Fields& fields);
 };
 
-// Measures one frame. Quantisation to depth_unit_m happens when the frame is stored.
-DepthImage Measure(const DepthImage& true_depth, const SensorSettings& settings,
-                   RandomStream& random);
+// Measures one frame. The same stream gives the same frame. Quantisation to depth_unit_m happens
+// when the frame is stored; settings.delivery is the caller's to heed.
+DepthImage Measure(const DepthImage& true_depth, const PinholeCamera& camera,
+                   const SensorSettings& settings, RandomStream& random);
 
 }  // namespace vitruvia

@@ -1,0 +1,156 @@
+#include "synth/sensor/time_of_flight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "synth/sensor/surface_angle.h"
+
+namespace vitruvia {
+namespace {
+
+constexpr const char* kFankhauser =
+    "after Fankhauser et al. 2015 (ICAR): 1 to 3 mm at 1 to 3 m; coefficients not read again";
+
+// The nearest and the farthest of the surfaces that meet round a pixel; a surface that ends before
+// nothing meets what lies reach_m behind it.
+struct Meeting {
+  float nearest = 0.0f, farthest = 0.0f;
+};
+Meeting SurfacesAt(const DepthImage& depth, int u, int v, float reach_m) {
+  Meeting meeting;
+  bool open = false;
+  for (int y = v - 1; y <= v + 1; ++y) {
+    for (int x = u - 1; x <= u + 1; ++x) {
+      if (!depth.Contains(x, y)) continue;
+      const float z = depth(x, y);
+      if (!(z > 0.0f)) {
+        open = true;
+        continue;
+      }
+      meeting.nearest = meeting.nearest == 0.0f ? z : std::min(meeting.nearest, z);
+      meeting.farthest = std::max(meeting.farthest, z);
+    }
+  }
+  meeting.farthest =
+      open ? meeting.nearest + reach_m : std::min(meeting.farthest, meeting.nearest + reach_m);
+  return meeting;
+}
+
+}  // namespace
+
+void TimeOfFlightSettings::Describe(Fields& f) {
+  f.Number("axial_base_m", axial_base_m,
+           {.meaning = "standard deviation of depth: constant part",
+            .unit = "m",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kGuessed,
+            .source = kFankhauser});
+  f.Number("axial_linear", axial_linear,
+           {.meaning = "factor of z",
+            .min = -1,
+            .max = 1,
+            .origin = Origin::kGuessed,
+            .source = kFankhauser});
+  f.Number("axial_square_per_m", axial_square_per_m,
+           {.meaning = "factor of z²",
+            .unit = "1/m",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kGuessed,
+            .source = kFankhauser});
+  f.Number("axial_slope", axial_slope,
+           {.meaning = "factor of z^1.5 θ² / (π/2 − θ)²",
+            .unit = "m^-0.5",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kGuessed,
+            .source = kFankhauser});
+  f.Number(
+      "rim_power", rim_power,
+      {.meaning = "deviations grow by 1 / cos(φ)^rim_power towards the rim of the field",
+       .min = 0,
+       .max = 10,
+       .origin = Origin::kGuessed,
+       .source = "the light that returns falls off; Corti et al. 2016 find growth with radius"});
+  f.Number("flying_share", flying_share,
+           {.meaning = "share of the pixels at depth edges that see both surfaces and measure "
+                       "something between",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kGuessed,
+            .source = "a pixel wide seam, in part removed by drivers"});
+  f.Number("flying_reach_m", flying_reach_m,
+           {.meaning = "flying pixels farther behind the nearer surface are taken for background "
+                       "and removed with it",
+            .unit = "m",
+            .min = 0,
+            .max = 10,
+            .origin = Origin::kGuessed,
+            .source = "as far as background removal can tell"});
+  f.Number("max_angle_deg", max_angle_deg,
+           {.meaning = "surfaces seen at a larger angle return too little light",
+            .unit = "deg",
+            .min = 1,
+            .max = 90,
+            .origin = Origin::kGuessed,
+            .source = kFankhauser});
+  f.Number("min_depth_m", min_depth_m,
+           {.meaning = "nothing nearer is measured",
+            .unit = "m",
+            .min = 0,
+            .max = 100,
+            .origin = Origin::kPaper,
+            .source = "the camera's data sheet: 0.5 m"});
+  f.Number("max_depth_m", max_depth_m,
+           {.meaning = "nothing farther is measured",
+            .unit = "m",
+            .min = 0.1,
+            .max = 100,
+            .origin = Origin::kPaper,
+            .source = "the camera's data sheet: 4.5 m, up to 8 m with less certainty"});
+}
+
+double AxialDeviation(const TimeOfFlightSettings& s, double z_m, double angle_rad,
+                      double off_axis_rad) {
+  constexpr double kLargest = 0.5 * std::numbers::pi - 1e-3;
+  const double angle = std::min(angle_rad, kLargest);
+  const double grazing = angle / (0.5 * std::numbers::pi - angle);
+  const double deviation = s.axial_base_m + s.axial_linear * z_m +
+                           s.axial_square_per_m * z_m * z_m +
+                           s.axial_slope * std::pow(z_m, 1.5) * grazing * grazing;
+  return std::max(deviation, 0.0) / std::pow(std::cos(off_axis_rad), s.rim_power);
+}
+
+DepthImage MeasureByTimeOfFlight(const DepthImage& true_depth, const PinholeCamera& camera,
+                                 const TimeOfFlightSettings& settings, RandomStream& random) {
+  const Image<float> angles = IncidenceAngles(true_depth, camera);
+  const double max_angle_rad = settings.max_angle_deg * std::numbers::pi / 180.0;
+  DepthImage measured(true_depth.width(), true_depth.height());
+  for (int v = 0; v < true_depth.height(); ++v) {
+    for (int u = 0; u < true_depth.width(); ++u) {
+      // All numbers are drawn at every pixel: no setting shifts the noise of the others.
+      const double along = random.Normal(), luck = random.Uniform();
+      const auto mixture = static_cast<float>(random.Uniform());
+      float z = true_depth(u, v);
+      double angle = angles(u, v);
+      if (luck < settings.flying_share && IsAtEdge(true_depth, u, v)) {
+        const Meeting surfaces =
+            SurfacesAt(true_depth, u, v, static_cast<float>(settings.flying_reach_m));
+        z = surfaces.nearest + mixture * (surfaces.farthest - surfaces.nearest);
+        angle = 0.0;  // a mixture of signals, no surface that light could graze
+      }
+      if (!(z >= settings.min_depth_m && z <= settings.max_depth_m) || angle > max_angle_rad) {
+        continue;
+      }
+      const Vector3<double> ray = camera.Unproject<double>(u, v, 1.0);
+      const double off_axis_rad = std::acos(1.0 / ray.norm());
+      const double deviation = AxialDeviation(settings, double{z}, angle, off_axis_rad);
+      measured(u, v) = static_cast<float>(std::max(z + along * deviation, 0.0));
+    }
+  }
+  return measured;
+}
+
+}  // namespace vitruvia
