@@ -51,8 +51,8 @@ ScapeMesh::ScapeMesh(const TriangleMesh& rest) : factorization_(std::make_unique
                                   t[0], t[1], t[2]));
     }
     for (const int end : {t[1], t[2]}) {
-      entries.insert(entries.end(), {{t[0], t[0], 1.0}, {end, end, 1.0}, {t[0], end, -1.0},
-                                     {end, t[0], -1.0}});
+      entries.insert(entries.end(),
+                     {{t[0], t[0], 1.0}, {end, end, 1.0}, {t[0], end, -1.0}, {end, t[0], -1.0}});
     }
   }
   // Edges do not say where the surface is: one vertex is held, and the mean moved afterwards.
@@ -82,8 +82,7 @@ Eigen::MatrixXd ScapeMesh::Integrate(const Eigen::Ref<const Eigen::MatrixXf>& de
     right_side.setZero();
     for (std::size_t k = 0; k < f.triangles.size(); ++k) {
       const Matrix3<double> deformation =
-          Eigen::Map<const Matrix3<float>>(deformations.col(column).data() + 9 * k)
-              .cast<double>();
+          Eigen::Map<const Matrix3<float>>(deformations.col(column).data() + 9 * k).cast<double>();
       for (int e = 0; e < 2; ++e) {
         const Eigen::RowVector3d edge = (deformation * f.edges[k][e]).transpose();
         right_side.row(f.triangles[k][e + 1]) += edge;

@@ -103,6 +103,23 @@ Eigen::MatrixXd Regression(const Eigen::MatrixXd& values, const Eigen::MatrixXd&
   return (values.colwise() - mean) * scores / static_cast<double>(scores.rows() - 1);
 }
 
+// Weight over volume of all people of each sex; of a sex without people, that of the other.
+Eigen::Vector2d Densities(const BodyDatabase& database, const std::vector<int>& subjects) {
+  Eigen::Vector2d weight_kg = Eigen::Vector2d::Zero(), volume_m3 = Eigen::Vector2d::Zero();
+  for (const int s : subjects) {
+    const DatabaseSubject& subject = database.subjects[static_cast<std::size_t>(s)];
+    const int sex = SexIndex(subject.attributes.sex);
+    weight_kg[sex] += subject.attributes.weight_kg;
+    volume_m3[sex] += EnclosedVolume({subject.vertices, database.reference.rest.triangles});
+  }
+  for (int sex = 0; sex < 2; ++sex) {
+    if (volume_m3[sex] > 0.0) continue;
+    weight_kg[sex] = weight_kg[1 - sex];
+    volume_m3[sex] = volume_m3[1 - sex];
+  }
+  return weight_kg.cwiseQuotient(volume_m3);
+}
+
 }  // namespace
 
 void ShapeSpaceSettings::Describe(Fields& f) {
@@ -148,6 +165,7 @@ ShapeSpace LearnShapeSpace(const BodyDatabase& database, const std::vector<int>&
   space.basis = components.basis;
   space.joint_mean = joints.rowwise().mean();
   space.joint_basis = Regression(joints, components.scores);
+  space.density_kg_m3 = Densities(database, subjects);
   space.attribute_mean = attributes.rowwise().mean();
   space.attribute_basis = Regression(attributes, components.scores);
   return space;
@@ -165,15 +183,14 @@ std::vector<Vector3f> Shape(const ShapeSpace& space, const Eigen::VectorXd& thet
   return vertices;
 }
 
-BodyModel PlacedBody(const ShapeSpace& space, const Eigen::VectorXd& theta, Sex sex,
-                     double density_kg_m3) {
+BodyModel PlacedBody(const ShapeSpace& space, const Eigen::VectorXd& theta, Sex sex) {
   BodyModel body = space.reference;
   body.rest.vertices = Shape(space, theta);
   const auto [lowest, highest] =
       std::minmax_element(body.rest.vertices.begin(), body.rest.vertices.end(),
                           [](const Vector3f& a, const Vector3f& b) { return a.y() < b.y(); });
   body.attributes = {static_cast<double>(highest->y() - lowest->y()),
-                     EnclosedVolume(body.rest) * density_kg_m3, sex};
+                     EnclosedVolume(body.rest) * space.density_kg_m3[SexIndex(sex)], sex};
   const Vector3f lift(0.0f, -lowest->y(), 0.0f);
   for (Vector3f& v : body.rest.vertices) v += lift;
   const Eigen::VectorXd joints =

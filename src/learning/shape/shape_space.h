@@ -27,15 +27,17 @@ struct ShapeSpaceSettings {
 
 inline constexpr int kAttributeCount = 3;  // height (m), weight (kg), sex (0 female, 1 male)
 Eigen::Vector3d AttributeVector(const BodyAttributes& attributes);
+inline int SexIndex(Sex sex) { return sex == Sex::kMale ? 1 : 0; }
 
 struct ShapeSpace {
-  BodyModel reference;         // topology and weights; its vertices are one subject's
-  Eigen::VectorXf mean;        // 3V, metres, centred
-  Eigen::MatrixXf basis;       // 3V × K, metres per standard deviation
-  Eigen::VectorXd joint_mean;  // 6 × 17: joints, then tips, relative to the vertices' mean
+  BodyModel reference;              // topology and weights; its vertices are one subject's
+  Eigen::VectorXf mean;             // 3V, metres, centred
+  Eigen::MatrixXf basis;            // 3V × K, metres per standard deviation
+  Eigen::VectorXd joint_mean;       // 6 × 17: joints, then tips, relative to the vertices' mean
   Eigen::MatrixXd joint_basis;      // 102 × K, by regression
   Eigen::Vector3d attribute_mean;   // see AttributeVector
   Eigen::MatrixXd attribute_basis;  // 3 × K, by regression: the attributes' directions
+  Eigen::Vector2d density_kg_m3;    // of women and men: the database's weights over its volumes
 
   int components() const { return static_cast<int>(basis.cols()); }
 };
@@ -49,9 +51,8 @@ ShapeSpace LearnShapeSpace(const BodyDatabase& database, const std::vector<int>&
 std::vector<Vector3f> Shape(const ShapeSpace& space, const Eigen::VectorXd& theta);
 
 // The body of coefficients θ: surface with feet on y = 0, regressed joints, and the attributes of
-// its surface (weight by `density_kg_m3`).
-BodyModel PlacedBody(const ShapeSpace& space, const Eigen::VectorXd& theta, Sex sex,
-                     double density_kg_m3);
+// its surface (weight by the sex's density).
+BodyModel PlacedBody(const ShapeSpace& space, const Eigen::VectorXd& theta, Sex sex);
 
 // How well the first k components represent people that were not learnt from: each subject's
 // best coefficients in the least-squares sense, and what is left.
@@ -65,8 +66,8 @@ std::vector<HeldOutError> HeldOutErrors(const ShapeSpace& space, const BodyDatab
                                         const std::vector<int>& subjects,
                                         const std::vector<int>& component_counts);
 
-// On disk, a folder: space.json (number of components), one .bin for each matrix above (mean and basis
-// float32, the others float64, column-major, little-endian), reference/ (a body).
+// On disk, a folder: space.json (number of components), one .bin for each matrix above (mean and
+// basis float32, the others float64, column-major, little-endian), reference/ (a body).
 void WriteShapeSpace(const std::filesystem::path& folder, const ShapeSpace& space);
 ShapeSpace ReadShapeSpace(const std::filesystem::path& folder);
 

@@ -33,8 +33,7 @@ Matrix ReadMatrix(const fs::path& file, Eigen::Index rows, Eigen::Index columns)
                                 bytes.size(), expected, rows, columns));
   }
   std::memcpy(matrix.data(), bytes.data(), expected);
-  if (!matrix.allFinite())
-    throw DataError(file.string() + ": holds numbers that are not finite");
+  if (!matrix.allFinite()) throw DataError(file.string() + ": holds numbers that are not finite");
   return matrix;
 }
 
@@ -45,11 +44,9 @@ struct HeaderFile {
 
   void Describe(Fields& f) {
     f.Text("format", format, {.meaning = "must be vitruvia-shape-space", .required = true});
-    f.Integer("version", version,
-              {.meaning = "version of this format",
-               .min = kVersion,
-               .max = kVersion,
-               .required = true});
+    f.Integer(
+        "version", version,
+        {.meaning = "version of this format", .min = kVersion, .max = kVersion, .required = true});
     f.Integer("components", components,
               {.meaning = "principal components", .min = 1, .max = 10000, .required = true});
   }
@@ -59,8 +56,8 @@ HeaderFile ReadHeader(const fs::path& file) {
   try {
     HeaderFile header = ReadSettingsFile<HeaderFile>(file);
     if (header.format == kFormat) return header;
-    throw DataError(fmt::format("{}: format \"{}\", expected \"{}\"", file.string(), header.format,
-                                kFormat));
+    throw DataError(
+        fmt::format("{}: format \"{}\", expected \"{}\"", file.string(), header.format, kFormat));
   } catch (const ConfigError& error) {
     throw DataError(error.what());
   }
@@ -78,6 +75,7 @@ void WriteShapeSpace(const fs::path& folder, const ShapeSpace& space) {
   WriteMatrix(staged.path() / "joint_basis.bin", space.joint_basis);
   WriteMatrix(staged.path() / "attribute_mean.bin", space.attribute_mean);
   WriteMatrix(staged.path() / "attribute_basis.bin", space.attribute_basis);
+  WriteMatrix(staged.path() / "density.bin", space.density_kg_m3);
   WriteBodyModel(staged.path() / "reference", space.reference);
   staged.Commit();
 }
@@ -97,6 +95,7 @@ ShapeSpace ReadShapeSpace(const fs::path& folder) {
       ReadMatrix<Eigen::MatrixXd>(folder / "attribute_mean.bin", kAttributeCount, 1);
   space.attribute_basis =
       ReadMatrix<Eigen::MatrixXd>(folder / "attribute_basis.bin", kAttributeCount, components);
+  space.density_kg_m3 = ReadMatrix<Eigen::VectorXd>(folder / "density.bin", 2, 1);
   return space;
 }
 

@@ -1,0 +1,52 @@
+// A shape of the space in a pose near the T-pose, and how its surface moves with every parameter.
+//
+// x_i = Σ_j w_ij (R_j (v̄_i(θ) − c_j(θ)) + p_j), where c_j are the joints regressed from θ, p_j the
+// posed joints down the chain: p_j = p_parent + R_parent (c_j − c_parent), p_pelvis a parameter.
+#pragma once
+
+#include "learning/shape/shape_space.h"
+
+namespace vitruvia {
+
+class PosedShape {
+ public:
+  struct Parameters {
+    Eigen::VectorXd theta;
+    std::array<Matrix3<double>, kBoneCount> local_rotations;  // parent_from_bone; pelvis: scan_from
+    Vector3d pelvis_position = Vector3d::Zero();              // scan frame
+  };
+
+  // The space must outlive this. `components`: how many coefficients θ has.
+  PosedShape(const ShapeSpace& space, int components);
+
+  // θ, then the pelvis' position, then a rotation vector for each bone.
+  int parameter_count() const { return components_ + 3 + 3 * kBoneCount; }
+  int rotation_index(int bone) const { return components_ + 3 + 3 * bone; }
+
+  // The mean shape in the T-pose, its pelvis where the space's centred frame has it.
+  Parameters Start() const;
+
+  // Moves the parameters by a step: θ and position add up; bone b and all below it turn by the
+  // rotation vector, given in the scan frame, about the bone's posed joint.
+  Parameters Stepped(const Parameters& parameters, const Eigen::VectorXd& step) const;
+
+  void Set(const Parameters& parameters);
+  const std::vector<Vector3f>& vertices() const { return vertices_; }  // scan frame
+
+  // d(n · x_i)/d(parameters) at the parameters last set: parameter_count() floats.
+  void Row(std::size_t vertex, const Vector3f& n, float* row) const;
+
+ private:
+  using RowMajor = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  const ShapeSpace& space_;
+  int components_;
+  RowMajor basis_;                                     // 3V × K, a vertex's three rows together
+  std::array<Matrix3<double>, kBoneCount> rotations_;  // scan_from_bone
+  std::array<Vector3f, kBoneCount> joints_, posed_joints_;
+  std::array<Matrix3<float>, kBoneCount> float_rotations_;
+  std::array<Eigen::Matrix<float, 3, Eigen::Dynamic>, kBoneCount> offsets_;  // d(p_j − R_j c_j)/dθ
+  std::vector<Vector3f> rest_, vertices_;
+};
+
+}  // namespace vitruvia

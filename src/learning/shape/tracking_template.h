@@ -1,0 +1,34 @@
+// From the learning mesh to the mesh that is tracked, and back (paper A, sec. 6.2: 12,500 vertices
+// learn, 6,252 are tracked).
+#pragma once
+
+#include "geometry/surface_map.h"
+#include "learning/shape/shape_space.h"
+
+namespace vitruvia {
+
+struct TrackingTemplate {
+  // The learning mesh's vertices that stay, ascending: shape and weights carry over as they are.
+  std::vector<int> kept;
+  std::vector<Triangle> triangles;  // over the kept ones
+  // Where each vertex of the learning mesh lies on the tracking mesh.
+  std::vector<SurfacePoint> learning_on_tracking;
+};
+
+inline constexpr int kTrackingVertices = 6252;  // paper A, sec. 6.2
+
+// By edge collapse of the learning mesh (geometry/decimation.h).
+TrackingTemplate MakeTrackingTemplate(const TriangleMesh& learning_mesh,
+                                      int target_vertices = kTrackingVertices);
+
+// To the tracking mesh: a selection, hence exact.
+BodyModel OnTrackingMesh(const BodyModel& learning_body, const TrackingTemplate& tracking);
+ShapeSpace OnTrackingMesh(const ShapeSpace& space, const TrackingTemplate& tracking);
+
+// Back to the learning mesh: by barycentric interpolation.
+std::vector<Vector3f> PositionsOnLearningMesh(const std::vector<Vector3f>& tracking_vertices,
+                                              const TrackingTemplate& tracking);
+SkinWeights WeightsOnLearningMesh(const SkinWeights& tracking_weights,
+                                  const TrackingTemplate& tracking);
+
+}  // namespace vitruvia
