@@ -1,0 +1,76 @@
+#include "core/worker_team.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/error.h"
+
+namespace vitruvia {
+
+WorkerTeam::WorkerTeam(int threads) {
+  Require(threads >= 1, "WorkerTeam of {} threads, expected 1 or more", threads);
+  for (int i = 1; i < threads; ++i) helpers_.emplace_back([this] { Help(); });
+}
+
+WorkerTeam::~WorkerTeam() {
+  stop_ = true;
+  ++generation_;
+  generation_.notify_all();
+  for (std::thread& helper : helpers_) helper.join();
+}
+
+void WorkerTeam::Run(int count, int grain, const void* body, Call call) {
+  Require(count >= 0 && grain >= 1, "WorkerTeam::For: {} items in ranges of {}", count, grain);
+  if (helpers_.empty() || count <= grain) {
+    for (int begin = 0; begin < count; begin += grain) {
+      call(body, begin, std::min(begin + grain, count));
+    }
+    return;
+  }
+  body_ = body;
+  call_ = call;
+  count_ = count;
+  grain_ = grain;
+  next_ = 0;
+  helpers_inside_ = 0;
+  ++generation_;
+  generation_.notify_all();
+  TakeRanges();
+  int inside = helpers_inside_.fetch_or(kClosed) | kClosed;
+  for (; inside != kClosed; inside = helpers_inside_) helpers_inside_.wait(inside);
+  if (problem_) std::rethrow_exception(std::exchange(problem_, nullptr));
+}
+
+void WorkerTeam::Help() {
+  unsigned seen = 0;
+  while (true) {
+    generation_.wait(seen);
+    seen = generation_;
+    if (stop_) return;
+    if (!Enter()) continue;
+    TakeRanges();
+    --helpers_inside_;
+    helpers_inside_.notify_one();
+  }
+}
+
+bool WorkerTeam::Enter() {
+  int inside = helpers_inside_;
+  while (inside < kClosed) {
+    if (helpers_inside_.compare_exchange_weak(inside, inside + 1)) return true;
+  }
+  return false;
+}
+
+void WorkerTeam::TakeRanges() {
+  for (int begin = next_.fetch_add(grain_); begin < count_; begin = next_.fetch_add(grain_)) {
+    try {
+      call_(body_, begin, std::min(begin + grain_, count_));
+    } catch (...) {
+      const std::lock_guard lock(problem_mutex_);
+      problem_ = std::current_exception();
+    }
+  }
+}
+
+}  // namespace vitruvia
