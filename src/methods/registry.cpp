@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "core/error.h"
+#include "methods/dynamic/dynamic.h"
 #include "methods/realtime_scape/realtime_scape.h"
 
 namespace vitruvia {
@@ -29,8 +30,10 @@ Entry MakeEntry(const char* name, const char* description) {
 const std::vector<Entry>& Entries() {
   static const std::vector<Entry> entries = {
       MakeEntry<realtime_scape::RealtimeScape, realtime_scape::Settings>(
-          "realtime_scape",
-          "paper A: LBS body of 17 bones, four-term energy, conjugate gradients")};
+          "realtime_scape", "paper A: LBS body of 17 bones, four-term energy, conjugate gradients"),
+      MakeEntry<dynamic::Dynamic, dynamic::Settings>(
+          "dynamic",
+          "paper B: dual-quaternion joints, projective association, a warp for every vertex")};
   return entries;
 }
 

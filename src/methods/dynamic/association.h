@@ -1,0 +1,83 @@
+// Projective data association (paper B, sec. 4.1): every observed point looks for the closest model
+// vertex in the pixels round its own.
+#pragma once
+
+#include <vector>
+
+#include "core/worker_team.h"
+#include "geometry/camera.h"
+#include "matching/point_cloud.h"
+#include "methods/dynamic/surface.h"
+
+namespace vitruvia::dynamic {
+
+struct AssociationLimits {
+  int window_px = 16;          // columns and rows to either side of a point's pixel
+  float cutoff_m = 0.08f;      // vertices at this distance or farther are not taken
+  float facing_cosine = 0.1f;  // least cosine of the angle between normal and line of sight
+};
+
+// What was observed of each slot: the sum of the points that chose it, and how many.
+template <class Scalar>
+struct Observations {
+  std::vector<Scalar> sums;  // x, y, z, count of each slot
+
+  void Reset(int slots) { sums.assign(4 * static_cast<std::size_t>(slots), Scalar(0)); }
+  Scalar Count(int slot) const { return sums[4 * static_cast<std::size_t>(slot) + 3]; }
+  Vector3<Scalar> Mean(int slot) const {  // p̄; only where Count is not 0
+    const Scalar* s = &sums[4 * static_cast<std::size_t>(slot)];
+    return Vector3<Scalar>(s[0], s[1], s[2]) / s[3];
+  }
+  void Add(int slot, const Vector3<Scalar>& point) {
+    Scalar* s = &sums[4 * static_cast<std::size_t>(slot)];
+    s[0] += point.x();
+    s[1] += point.y();
+    s[2] += point.z();
+    s[3] += Scalar(1);
+  }
+};
+
+class Association {
+ public:
+  Association(const PinholeCamera& camera, const SurfaceLayout& layout);
+
+  // The pixel of each slot of a patch, −1 for one that does not face the camera or lies outside the
+  // image. After PosePatch.
+  void ProjectPatch(const Patch& patch, const Surface<float>& surface,
+                    const AssociationLimits& limits);
+  // Sorts the projected vertices into buckets, one for each pixel.
+  void FillBuckets(const Surface<float>& surface);
+  // For each point of the cloud the closest vertex among the buckets of its window, nearer than the
+  // cutoff; of equally close ones the one of the lowest slot; −1 if there is none. The search
+  // begins at the point's pixel and ends where the width of a pixel alone makes vertices farther
+  // than the best so far: exact.
+  void FindNearest(const PointCloud& cloud, const AssociationLimits& limits, WorkerTeam& team);
+  // Sums up the points that chose a vertex, in the cloud's order.
+  void Observe(const PointCloud& cloud, Observations<float>& observations) const;
+
+  const std::vector<int>& pixels() const { return pixels_; }    // per slot
+  const std::vector<int>& nearest() const { return nearest_; }  // per point: a slot or −1
+
+ private:
+  struct Entry {
+    float x, y, z;
+    int slot;
+  };
+  struct Best {
+    float squared;
+    int slot;
+  };
+  int NearestTo(const Vector3f& point, int pixel, const AssociationLimits& limits) const;
+  void ScanRow(const Vector3f& point, int row, int first_column, int last_column, Best& best) const;
+
+  PinholeCamera camera_;
+  const SurfaceLayout* layout_;
+  float widest_ray_px_;  // of the image: longest (u − cx, fx) or (v − cy, fy)
+  std::vector<int> pixels_;
+  std::vector<int> bucket_begin_;  // per pixel, and one more
+  int first_row_ = 0, last_row_ = -1;
+  std::vector<Entry> entries_;
+  std::vector<int> nearest_;
+};
+
+}  // namespace vitruvia::dynamic

@@ -1,0 +1,55 @@
+#include "methods/dynamic/level.h"
+
+#include <algorithm>
+
+namespace vitruvia::dynamic {
+namespace {
+
+constexpr int kPatchesPerRange = 4;
+
+}  // namespace
+
+Level::Level(const TrackedMesh& mesh, const PinholeCamera& camera)
+    : surface(mesh.weights, mesh.vertices, mesh.normals),
+      association(camera, surface.layout),
+      equations(surface.layout) {
+  observations.Reset(surface.layout.slot_count());
+}
+
+void Level::Match(const TreePose& pose, const AssociationLimits& limits, WorkerTeam& team,
+                  StepTimes& times) {
+  motions = MotionsOf<float>(pose);
+  const auto& patches = surface.layout.patches;
+  team.For(static_cast<int>(patches.size()), kPatchesPerRange, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      PosePatch(patches[i], motions, surface);
+      association.ProjectPatch(patches[i], surface, limits);
+    }
+  });
+  times.Lap(kSkin);
+  association.FillBuckets(surface);
+  association.FindNearest(cloud, limits, team);
+  association.Observe(cloud, observations);
+  times.Lap(kAssociate);
+}
+
+void Level::Assemble(const KinematicTree& tree, const TreePose& pose, WorkerTeam& team,
+                     PoseEquations& result, StepTimes& times) {
+  team.For(static_cast<int>(surface.layout.patches.size()), kPatchesPerRange,
+           [&](int begin, int end) {
+             for (int i = begin; i < end; ++i) {
+               equations.AddPatch(i, surface, motions, observations);
+             }
+           });
+  equations.Carry(surface.layout, tree, pose, result);
+  times.Lap(kAssemble);
+}
+
+double Level::MatchedShare() const {
+  const auto& nearest = association.nearest();
+  if (nearest.empty()) return 0.0;
+  const auto missed = std::count(nearest.begin(), nearest.end(), -1);
+  return 1.0 - static_cast<double>(missed) / static_cast<double>(nearest.size());
+}
+
+}  // namespace vitruvia::dynamic

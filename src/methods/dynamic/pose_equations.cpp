@@ -1,0 +1,183 @@
+#include "methods/dynamic/pose_equations.h"
+
+#include <algorithm>
+
+#include "methods/dynamic/blend.h"
+
+namespace vitruvia::dynamic {
+namespace {
+
+// The six derivatives of n·v after a link's (φ, τ), written to row[0 … 5].
+//
+// With b = q_r + ε q_d the blend, n² = |q_r|², and c = w/n² q_k q_r*, f = w/n² d_k q_r* of a link's
+// q̂_k = q_k + ε d_k, both as scalar and vector:
+//   ∂(n·v)/∂τ = c₀ n + c × n
+//   ∂(n·v)/∂φ = ½ (c₀ h + c × h + κ c) + f₀ n + f × n
+// where h = (2v − t) × n − 2σ n, κ = n·t, t the blend's translation and σ the scalar part of
+// q_d q_r*/n². It is the derivative of v = (q_r v̄ q_r* + 2 vec(q_d q_r*)) / n², division included.
+template <class Scalar>
+struct LinkRow {
+  const LaneBlend<Scalar>& blend;
+  LaneVector<Scalar> n, h;
+  Lanes<Scalar> kappa;
+
+  LinkRow(const LaneBlend<Scalar>& b, const LaneVector<Scalar>& v, const LaneVector<Scalar>& normal)
+      : blend(b), n(normal) {
+    const LaneVector<Scalar> t = b.Translation();
+    const Lanes<Scalar> twice_excess = Scalar(2) * b.Excess();
+    const LaneVector<Scalar> lever = {Scalar(2) * v.x - t.x, Scalar(2) * v.y - t.y,
+                                      Scalar(2) * v.z - t.z};
+    h = Cross(lever, n);
+    h.x -= twice_excess * n.x;
+    h.y -= twice_excess * n.y;
+    h.z -= twice_excess * n.z;
+    kappa = Dot(n, t);
+  }
+
+  // scale · q q_r* as scalar and vector, q a constant.
+  void TimesConjugate(const Eigen::Quaternion<Scalar>& q, const Lanes<Scalar>& scale,
+                      Lanes<Scalar>& scalar, LaneVector<Scalar>& vector) const {
+    const auto& [a, b, u, d, inverse_square] = blend;
+    scalar = scale * (q.w() * a + q.x() * u.x + q.y() * u.y + q.z() * u.z);
+    vector.x = scale * (q.x() * a - q.w() * u.x + u.y * q.z() - u.z * q.y());
+    vector.y = scale * (q.y() * a - q.w() * u.y + u.z * q.x() - u.x * q.z());
+    vector.z = scale * (q.z() * a - q.w() * u.z + u.x * q.y() - u.y * q.x());
+  }
+
+  void Write(const DualQuaternion<Scalar>& q, const Lanes<Scalar>& weight,
+             Lanes<Scalar>* row) const {
+    const Lanes<Scalar> scale = weight * blend.inverse_square;
+    Lanes<Scalar> c0, f0;
+    LaneVector<Scalar> c, f;
+    TimesConjugate(q.real, scale, c0, c);
+    TimesConjugate(q.dual, scale, f0, f);
+    const LaneVector<Scalar> c_h = Cross(c, h), f_n = Cross(f, n), c_n = Cross(c, n);
+    const Scalar half(0.5);
+    row[0] = half * (c0 * h.x + c_h.x + kappa * c.x) + f0 * n.x + f_n.x;
+    row[1] = half * (c0 * h.y + c_h.y + kappa * c.y) + f0 * n.y + f_n.y;
+    row[2] = half * (c0 * h.z + c_h.z + kappa * c.z) + f0 * n.z + f_n.z;
+    row[3] = c0 * n.x + c_n.x;
+    row[4] = c0 * n.y + c_n.y;
+    row[5] = c0 * n.z + c_n.z;
+  }
+};
+
+}  // namespace
+
+template <class Scalar>
+LinkEquations<Scalar>::LinkEquations(const SurfaceLayout& layout) : sums_(layout.patches.size()) {
+  link_hessian_.resize(kLinkUnknowns, kLinkUnknowns);
+  link_gradient_.resize(kLinkUnknowns);
+}
+
+template <class Scalar>
+template <int N>
+void LinkEquations<Scalar>::AddLanes(const Patch& patch, const Surface<Scalar>& s,
+                                     const BoneMotions<Scalar>& bones,
+                                     const Observations<Scalar>& observations,
+                                     PatchSums& sums) const {
+  using Lane = Lanes<Scalar>;
+  constexpr int kRow = kTwistSize * N;
+  std::array<Lane, kRow*(kRow + 1) / 2> hessian;
+  std::array<Lane, kRow> gradient, row;
+  for (Lane& lane : hessian) lane.setZero();
+  for (Lane& lane : gradient) lane.setZero();
+  Lane energy = Lane::Zero();
+  sums.residuals = 0;
+  const auto q = InOneHemisphere(patch, bones);
+  for (int slot = patch.begin; slot < patch.end; slot += kLanes) {
+    const Eigen::Map<const Eigen::Array<Scalar, 4, kLanes>> observed(
+        observations.sums.data() + 4 * static_cast<std::size_t>(slot));
+    const Lane count = observed.row(3).transpose();
+    const auto has_points = (count > Scalar(0)).eval();
+    if (!has_points.any()) continue;
+    sums.residuals += static_cast<int>(has_points.count());
+    const Lane inverse_count = has_points.select(count, Scalar(1)).inverse();
+    const auto blend = LaneBlend<Scalar>::template Of<N>(q, s.weights, slot);
+    const auto v = LaneVector<Scalar>::Load(s.posed, slot);
+    auto n = LaneVector<Scalar>::Load(s.normals, slot);
+    // Vertices that no point chose have no residual: a normal of zero makes r and its row zero.
+    const Lane mask = has_points.template cast<Scalar>();
+    n.x *= mask;
+    n.y *= mask;
+    n.z *= mask;
+    const Lane mean_x = observed.row(0).transpose() * inverse_count;
+    const Lane mean_y = observed.row(1).transpose() * inverse_count;
+    const Lane mean_z = observed.row(2).transpose() * inverse_count;
+    const Lane r = n.x * (v.x - mean_x) + n.y * (v.y - mean_y) + n.z * (v.z - mean_z);  // eq. 6
+    const LinkRow<Scalar> link_row(blend, v, n);
+    for (int k = 0; k < N; ++k)
+      link_row.Write(q[k], Load(s.weights[k], slot), &row[kTwistSize * k]);
+    energy += r * r;
+    int entry = 0;
+    for (int a = 0; a < kRow; ++a) {
+      gradient[a] += row[a] * r;
+      for (int b = a; b < kRow; ++b) hessian[entry++] += row[a] * row[b];
+    }
+  }
+  for (std::size_t i = 0; i < hessian.size(); ++i) sums.hessian[i] = double{hessian[i].sum()};
+  for (std::size_t i = 0; i < gradient.size(); ++i) sums.gradient[i] = double{gradient[i].sum()};
+  sums.energy = double{energy.sum()};
+}
+
+template <class Scalar>
+void LinkEquations<Scalar>::AddPatch(int patch, const Surface<Scalar>& surface,
+                                     const BoneMotions<Scalar>& bones,
+                                     const Observations<Scalar>& observations) {
+  const Patch& p = surface.layout.patches[patch];
+  PatchSums& sums = sums_[patch];
+  switch (p.influences) {
+    case 1:
+      return AddLanes<1>(p, surface, bones, observations, sums);
+    case 2:
+      return AddLanes<2>(p, surface, bones, observations, sums);
+    case 3:
+      return AddLanes<3>(p, surface, bones, observations, sums);
+    default:
+      return AddLanes<4>(p, surface, bones, observations, sums);
+  }
+}
+
+template <class Scalar>
+void LinkEquations<Scalar>::Carry(const SurfaceLayout& layout, const KinematicTree& tree,
+                                  const TreePose& pose, PoseEquations& equations) {
+  link_hessian_.setZero();
+  link_gradient_.setZero();
+  equations.energy = 0.0;
+  equations.residuals = 0;
+  equations.observed.fill(0);
+  for (std::size_t i = 0; i < layout.patches.size(); ++i) {
+    const Patch& patch = layout.patches[i];
+    const PatchSums& sums = sums_[i];
+    if (sums.residuals == 0) continue;
+    const int row_size = kTwistSize * patch.influences;
+    int entry = 0;
+    for (int a = 0; a < row_size; ++a) {
+      const int row = kTwistSize * patch.bones[a / kTwistSize] + a % kTwistSize;
+      link_gradient_[row] += sums.gradient[a];
+      for (int b = a; b < row_size; ++b) {
+        const int column = kTwistSize * patch.bones[b / kTwistSize] + b % kTwistSize;
+        link_hessian_(std::max(row, column), std::min(row, column)) += sums.hessian[entry++];
+      }
+    }
+    equations.energy += sums.energy;
+    equations.residuals += sums.residuals;
+    equations.observed[patch.bones[0]] += sums.residuals;
+  }
+  link_hessian_.template triangularView<Eigen::StrictlyUpper>() = link_hessian_.transpose();
+  // S: a joint moves every bone down its chain by one and the same twist.
+  twists_.setZero(kLinkUnknowns, tree.joint_count());
+  for (int bone = 0; bone < kBoneCount; ++bone) {
+    for (const int joint : tree.ChainOf(bone)) {
+      twists_.block<kTwistSize, 1>(kTwistSize * bone, joint) = pose.twists[joint];
+    }
+  }
+  carried_.noalias() = link_hessian_ * twists_;
+  equations.hessian.noalias() = twists_.transpose() * carried_;
+  equations.gradient.noalias() = twists_.transpose() * link_gradient_;
+}
+
+template class LinkEquations<float>;
+template class LinkEquations<double>;
+
+}  // namespace vitruvia::dynamic

@@ -1,0 +1,64 @@
+// The normal equations of the pose step (paper B, sec. 4.2, eqs. 7 and 8).
+//
+// ∂r_i/∂θ = n_iᵀ ∂v_i/∂b_i ∂b_i/∂T ∂T/∂θ is taken apart behind ∂T: a change of link k is a twist
+// (φ, τ), T_k ← (1 + ½(φ + ε τ)) T_k, and one row of 6 numbers for each of a vertex's at most four
+// links says all that a vertex has to say. JᵀJ and Jᵀr are summed over these rows, 6 for each bone,
+// and only then carried to the joints by S, which holds the joints' twists: J = J_links S. The cost
+// of a vertex does not depend on how many joints there are.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "methods/dynamic/association.h"
+#include "methods/dynamic/surface.h"
+
+namespace vitruvia::dynamic {
+
+inline constexpr int kTwistSize = 6;
+inline constexpr int kLinkUnknowns = kTwistSize * kBoneCount;
+
+struct PoseEquations {
+  Eigen::MatrixXd hessian;                 // JᵀJ, joints × joints
+  Eigen::VectorXd gradient;                // Jᵀr
+  double energy = 0.0;                     // Σ r²
+  int residuals = 0;                       // vertices that some point chose
+  std::array<int, kBoneCount> observed{};  // of these by the bone of their largest weight
+};
+
+template <class Scalar>
+class LinkEquations {
+ public:
+  explicit LinkEquations(const SurfaceLayout& layout);
+
+  // r_i = n_iᵀ (v_i − p̄_i) (eq. 6) of the observed vertices of one patch. Patches may be added on
+  // different threads.
+  void AddPatch(int patch, const Surface<Scalar>& surface, const BoneMotions<Scalar>& bones,
+                const Observations<Scalar>& observations);
+  // Sums up all patches, in order, and carries the sum to the joints.
+  void Carry(const SurfaceLayout& layout, const KinematicTree& tree, const TreePose& pose,
+             PoseEquations& equations);
+
+ private:
+  // Upper triangle of JᵀJ, row after row, then Jᵀr, for the patch's bones in its order.
+  struct PatchSums {
+    static constexpr int kMaxRow = kTwistSize * kMaxInfluences;
+    std::array<double, kMaxRow*(kMaxRow + 1) / 2> hessian;
+    std::array<double, kMaxRow> gradient;
+    double energy = 0.0;
+    int residuals = 0;
+  };
+  template <int N>
+  void AddLanes(const Patch& patch, const Surface<Scalar>& surface,
+                const BoneMotions<Scalar>& bones, const Observations<Scalar>& observations,
+                PatchSums& sums) const;
+
+  std::vector<PatchSums> sums_;
+  Eigen::MatrixXd link_hessian_;  // kLinkUnknowns²
+  Eigen::VectorXd link_gradient_;
+  Eigen::MatrixXd twists_;   // S: kLinkUnknowns × joints
+  Eigen::MatrixXd carried_;  // link_hessian_ S
+};
+
+}  // namespace vitruvia::dynamic

@@ -1,0 +1,35 @@
+// What the tracker needs of the rest mesh beyond positions: normals that follow the warps, and each
+// vertex's closest neighbours.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/worker_team.h"
+#include "geometry/mesh.h"
+#include "methods/dynamic/surface.h"
+
+namespace vitruvia::dynamic {
+
+inline constexpr int kNeighbors = 4;  // paper B, sec. 4.3
+
+// The closest vertices of each vertex in the rest mesh (eq. 9's N(i)), among those at most two
+// edges away: vertices that are close but belong to another part of the body, as thighs do, are no
+// neighbours. −1 where a vertex has fewer.
+using NeighborTable = std::vector<std::array<int, kNeighbors>>;
+NeighborTable ClosestNeighbors(const std::vector<Vector3f>& vertices,
+                               const std::vector<Triangle>& triangles);
+
+// Area-weighted vertex normals of a surface's rest columns, kept up to date without allocation.
+class RestNormals {
+ public:
+  RestNormals(const SurfaceLayout& layout, const std::vector<Triangle>& triangles);
+  void Update(WorkerTeam& team, Surface<float>& surface);
+
+ private:
+  std::vector<Triangle> triangles_;                      // of slots
+  std::vector<int> first_face_, faces_;                  // of each slot, one after the other
+  std::vector<Eigen::Array<float, 4, 1>> area_normals_;  // per triangle; the fourth is not used
+};
+
+}  // namespace vitruvia::dynamic

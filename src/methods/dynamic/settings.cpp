@@ -1,0 +1,183 @@
+#include "methods/dynamic/settings.h"
+
+namespace vitruvia::dynamic {
+
+void AssociationSettings::Describe(Fields& f) {
+  f.Integer("window_px", window_px,
+            {.meaning = "columns and rows to either side of a point's pixel in which it looks for "
+                        "the closest vertex",
+             .unit = "px",
+             .min = 0,
+             .max = 1000,
+             .origin = Origin::kGuessed,
+             .source = "paper B is silent; holds the cutoff's 0.08 m at 2 m and 365 px of focal "
+                       "length"});
+  f.Number("cutoff_m", cutoff_m,
+           {.meaning = "vertices farther from a point than this are not taken",
+            .unit = "m",
+            .min = 1e-4,
+            .max = 10,
+            .origin = Origin::kGuessed,
+            .source = "paper B is silent; a hand at 2.4 m/s between frames of 30 Hz"});
+  f.Number("facing_cosine", facing_cosine,
+           {.meaning = "a vertex is taken only if the angle between its normal and the line of "
+                       "sight has at least this cosine",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kGuessed,
+            .source = "paper B is silent"});
+  f.Integer("pose_pixel_stride", pose_pixel_stride,
+            {.meaning = "the pose step takes pixels of every how many columns and rows; the shape "
+                        "step takes all",
+             .unit = "px",
+             .min = 1,
+             .max = 16,
+             .origin = Origin::kPaper,
+             .source = "paper B: all; more is ours, coarse to fine"});
+  f.Integer("pose_vertex_stride", pose_vertex_stride,
+            {.meaning = "the pose step takes about one of that many vertices, evenly spread; the "
+                        "shape step takes all",
+             .min = 1,
+             .max = 64,
+             .origin = Origin::kPaper,
+             .source = "paper B: all; more is ours, coarse to fine"});
+}
+
+void PoseSettings::Describe(Fields& f) {
+  f.Integer("iterations", iterations,
+            {.meaning = "pose iterations for a frame, at most",
+             .min = 0,
+             .max = 1000,
+             .origin = Origin::kPaper,
+             .source = "paper B, sec. 4.2: ten to fifteen"});
+  f.Integer("first_frame_iterations", first_frame_iterations,
+            {.meaning = "pose iterations for the first frame, at most",
+             .min = 0,
+             .max = 1000,
+             .origin = Origin::kGuessed,
+             .source = "paper B is silent"});
+  f.Number("damping", damping,
+           {.meaning = "λ of the damped least squares, per rad² and m² of a joint",
+            .min = 0,
+            .max = 1e9,
+            .origin = Origin::kGuessed,
+            .source = "paper B is silent"});
+  f.Number("default_pose_weight", default_pose_weight,
+           {.meaning = "γ: draws each joint to its default 0, times the number of vertices that "
+                       "it moves",
+            .min = 0,
+            .max = 1e9,
+            .origin = Origin::kGuessed,
+            .source = "paper B is silent"});
+  f.Number("held_below_share", held_below_share,
+           {.meaning = "a joint is held, not solved, while a smaller share of the vertices that it "
+                       "moves was chosen by points",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kGuessed,
+            .source = "paper B lets it relax to the default pose, as 0 does"});
+  f.Number("rotation_step_deg", rotation_step_deg,
+           {.meaning = "stop when every hinge turned by less in an iteration; 0: never",
+            .unit = "deg",
+            .min = 0,
+            .max = 180,
+            .origin = Origin::kGuessed,
+            .source = "paper B: a fixed number of iterations"});
+  f.Number("translation_step_m", translation_step_m,
+           {.meaning = "and every prismatic joint moved by less",
+            .unit = "m",
+            .min = 0,
+            .max = 10,
+            .origin = Origin::kGuessed,
+            .source = "paper B: a fixed number of iterations"});
+}
+
+void ShapeSettings::Describe(Fields& f) {
+  f.Integer("iterations", iterations,
+            {.meaning = "shape iterations for a frame",
+             .min = 0,
+             .max = 1000,
+             .origin = Origin::kPaper,
+             .source = "paper B, sec. 4.3: two"});
+  f.Integer("first_frame_iterations", first_frame_iterations,
+            {.meaning = "shape iterations for the first frame, whose warps begin at 0",
+             .min = 0,
+             .max = 1000,
+             .origin = Origin::kGuessed,
+             .source = "paper B is silent; shape match has no other frame to fit"});
+  f.Number("magnitude_weight", magnitude_weight,
+           {.meaning = "λ_d of eq. 9, against the length of a warp",
+            .min = 0,
+            .max = 1e6,
+            .origin = Origin::kGuessed,
+            .source = "paper B is silent"});
+  f.Number("neighbor_weight", neighbor_weight,
+           {.meaning = "λ_s of eq. 9, against the difference of neighbouring warps",
+            .min = 1e-9,
+            .max = 1e6,
+            .origin = Origin::kGuessed,
+            .source = "paper B is silent"});
+}
+
+void PlacementSettings::Describe(Fields& f) {
+  f.Integer("iterations", iterations,
+            {.meaning = "iterations of the root's joints alone that put the rest pose onto the "
+                        "first frame",
+             .min = 0,
+             .max = 1000,
+             .origin = Origin::kGuessed,
+             .source = "paper B starts from a given estimate"});
+  f.Integer("window_px", window_px,
+            {.meaning = "window_px of the association while placing",
+             .unit = "px",
+             .min = 0,
+             .max = 1000,
+             .origin = Origin::kGuessed,
+             .source = "as far as the first estimate may be off"});
+  f.Number("cutoff_m", cutoff_m,
+           {.meaning = "cutoff_m of the association while placing",
+            .unit = "m",
+            .min = 1e-4,
+            .max = 10,
+            .origin = Origin::kGuessed,
+            .source = "as far as the first estimate may be off"});
+}
+
+void Settings::Describe(Fields& f) {
+  f.File("skeleton", skeleton,
+         {.meaning = "skeleton file: joints, axes and limits", .required = true});
+  f.Choice("mode", mode,
+           {{"full", Mode::kFull},
+            {"shape_match", Mode::kShapeMatch},
+            {"smooth_bind", Mode::kSmoothBind},
+            {"rigid", Mode::kRigid}},
+           {.meaning = "what becomes of the surface: warps in every frame, in the first only, "
+                       "none, or none on rigid parts",
+            .origin = Origin::kPaper,
+            .source = "paper B, sec. 5.1"});
+  f.Section("association", association, {.meaning = "which point belongs to which vertex"});
+  f.Section("pose", pose, {.meaning = "damped least squares over the joints"});
+  f.Section("shape", shape, {.meaning = "warps of the vertices"});
+  f.Section("placement", placement, {.meaning = "how the rest pose is put onto the first frame"});
+  f.Number("max_depth_m", max_depth_m,
+           {.meaning = "pixels beyond are no measurement of the subject",
+            .unit = "m",
+            .min = 0.1,
+            .max = 100,
+            .origin = Origin::kGuessed,
+            .source = "range of the depth cameras in use"});
+  f.Number("lost_below", lost_below,
+           {.meaning = "a frame is lost when less than this share of the points found a vertex",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kGuessed,
+            .source = "paper B is silent"});
+  f.Integer("threads", threads,
+            {.meaning = "threads that a frame is computed on; the result does not depend on it",
+             .min = 1,
+             .max = 64,
+             .origin = Origin::kInput,
+             .source = "two cores"});
+}
+
+}  // namespace vitruvia::dynamic

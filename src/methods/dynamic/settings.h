@@ -1,0 +1,66 @@
+// Settings of Dynamic (paper B, sec. 4).
+#pragma once
+
+#include <filesystem>
+
+#include "core/settings.h"
+
+namespace vitruvia::dynamic {
+
+// What becomes of the surface (paper B, sec. 5.1).
+enum class Mode {
+  kFull,        // warps are estimated in every frame
+  kShapeMatch,  // in the first frames only, then they are frozen
+  kSmoothBind,  // not at all
+  kRigid,       // not at all, and the mesh is cut into one rigid part for each bone
+};
+
+struct AssociationSettings {
+  int window_px = 16;
+  double cutoff_m = 0.08;
+  double facing_cosine = 0.1;
+  int pose_pixel_stride = 1;
+  int pose_vertex_stride = 1;
+  void Describe(Fields& fields);
+};
+
+struct PoseSettings {
+  int iterations = 10;
+  int first_frame_iterations = 30;
+  double damping = 0.05;
+  double default_pose_weight = 1e-5;
+  double held_below_share = 0.01;
+  double rotation_step_deg = 0.0;
+  double translation_step_m = 0.0;
+  void Describe(Fields& fields);
+};
+
+struct ShapeSettings {
+  int iterations = 2;
+  int first_frame_iterations = 20;
+  double magnitude_weight = 0.01;
+  double neighbor_weight = 0.2;
+  void Describe(Fields& fields);
+};
+
+struct PlacementSettings {
+  int iterations = 30;
+  int window_px = 64;
+  double cutoff_m = 0.5;
+  void Describe(Fields& fields);
+};
+
+struct Settings {
+  std::filesystem::path skeleton;
+  Mode mode = Mode::kFull;
+  AssociationSettings association;
+  PoseSettings pose;
+  ShapeSettings shape;
+  PlacementSettings placement;
+  double max_depth_m = 8.0;
+  double lost_below = 0.3;
+  int threads = 2;
+  void Describe(Fields& fields);
+};
+
+}  // namespace vitruvia::dynamic

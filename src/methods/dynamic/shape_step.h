@@ -1,0 +1,58 @@
+// The shape step (paper B, sec. 4.3, eq. 9): a warp ω_i for every vertex.
+//
+//   Σ_i { r_i² + λ_d ‖ω_i‖² + λ_s Σ_{j∈N(i)} ‖ω_i − ω_j‖² }
+//
+// Each vertex on its own, its neighbours held (Jacobi): with g_i = R_iᵀ n_i,
+//   A_i = g_i g_iᵀ + α I,  α = λ_d + λ_s |N|,
+//   h_i = g_i r_i + λ_d ω_i + λ_s Σ_j (ω_i − ω_j),
+//   ω_i ← ω_i − A_i⁻¹ h_i,  A_i⁻¹ h = (h − g (g·h) / (α + g·g)) / α  (Sherman & Morrison 1950).
+// A vertex that no point chose has no r_i: g_i = 0. Then ω_i becomes a mean of its neighbours'
+// drawn towards 0, so warps stay within what they were when data vanish.
+#pragma once
+
+#include <vector>
+
+#include "core/worker_team.h"
+#include "methods/dynamic/association.h"
+#include "methods/dynamic/rest_mesh.h"
+#include "methods/dynamic/surface.h"
+
+namespace vitruvia::dynamic {
+
+struct ShapeWeights {
+  float magnitude = 0.01f;  // λ_d
+  float neighbors = 0.2f;   // λ_s
+};
+
+// A⁻¹ h as above.
+template <class Scalar>
+Vector3<Scalar> SolveWarp(const Vector3<Scalar>& g, const Vector3<Scalar>& h, Scalar alpha) {
+  return (h - g * (g.dot(h) / (alpha + g.dot(g)))) / alpha;
+}
+
+class ShapeStep {
+ public:
+  ShapeStep(const SurfaceLayout& layout, const std::vector<Vector3f>& rest_vertices,
+            const NeighborTable& neighbors);
+
+  // One iteration for all vertices from the observations of the posed surface; moves
+  // surface.rest to v̄ + ω. The same for any number of threads.
+  void Iterate(const Observations<float>& observations, const ShapeWeights& weights,
+               WorkerTeam& team, Surface<float>& surface);
+
+  Vector3f WarpOf(int slot) const { return warps_[slot].head<3>(); }
+  double energy() const { return energy_; }  // of eq. 9 before the last iteration
+
+ private:
+  using Warp = Eigen::Vector4f;  // the fourth is 0: a neighbour is one load
+  double IterateRange(int begin, int end, const Observations<float>& observations,
+                      const ShapeWeights& weights, Surface<float>& surface);
+
+  std::vector<Warp> warps_, next_warps_;  // per slot; read and written
+  std::vector<Warp> rest_;                // v̄
+  NeighborTable neighbors_;               // of slots
+  std::vector<double> energies_;          // per range
+  double energy_ = 0.0;
+};
+
+}  // namespace vitruvia::dynamic
