@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "core/timer.h"
-#include "learning/skinning/extrapolation.h"
+#include "learning/skinning/joint_step.h"
 #include "learning/skinning/packed_examples.h"
 #include "learning/skinning/transform_step.h"
 #include "learning/skinning/weight_step.h"
@@ -50,18 +50,19 @@ class Alternator {
         label_of_row_(LabelsOfRows(packed_, labels)),
         weights_(RigidWeights(label_of_row_)),
         weight_step_(packed_, label_of_row_, candidates, settings.influences, settings.threads),
-        transform_step_(bones_, packed_.pose_count(), settings),
+        transform_step_(bones_, packed_.pose_count(), settings.transforms, settings.transform_steps,
+                        settings.threads),
+        joint_step_(packed_, bones_, settings.joint_iterations, settings.threads),
+        pattern_(bones_),
         moments_(bones_, packed_.pose_count()),
-        extrapolation_(bones_, packed_.pose_count(), settings.history),
         stack_(Standing(bones_, packed_.pose_count())) {}
 
   // Rigid pieces: in closed form, since they may have turned by any angle.
   double FitRigidPieces() {
-    Settings closed = settings_;
-    closed.transforms = TransformSolver::kClosedForm;
-    closed.transform_steps = 1;
     weight_step_.Gather(stack_, weights_, moments_);
-    energy_ = TransformStep(bones_, packed_.pose_count(), closed).Solve(moments_, stack_);
+    TransformStep closed_form(bones_, packed_.pose_count(), TransformSolver::kClosedForm, 1,
+                              settings_.threads);
+    energy_ = closed_form.Solve(pattern_, moments_, stack_);
     next_ = stack_;
     return Rmse(energy_);
   }
@@ -71,21 +72,22 @@ class Alternator {
     Alternation result;
     kept_weights_ = weights_;
     weight_step_.Solve(next_, weights_, moments_);
-    result.extrapolated = extrapolated_ && moments_.energy <= energy_;
-    if (extrapolated_ && !result.extrapolated) {
-      extrapolation_.Forget();
+    result.extrapolated = joint_ && moments_.energy <= energy_;
+    if (joint_ && !result.extrapolated) {
       weights_ = kept_weights_;
       next_ = stack_;
       weight_step_.Solve(next_, weights_, moments_);
+      damping_ = std::min(damping_ * 10.0, 1e3);
+    } else if (joint_) {
+      damping_ = std::max(damping_ / 4.0, 1e-6);
     }
     stack_ = next_;
-    energy_ = transform_step_.Solve(moments_, stack_);
+    pattern_.Analyse(moments_.second);
+    joint_ = settings_.joint_iterations > 0;
+    if (joint_) joint_step_.Solve(pattern_, moments_, weights_, stack_, damping_, next_);
+    energy_ = transform_step_.Solve(pattern_, moments_, stack_);
+    if (!joint_) next_ = stack_;
     result.rmse_m = Rmse(energy_);
-    extrapolated_ =
-        settings_.history > 0 &&
-        extrapolation_.Extrapolate(next_, stack_, moments_.second, extrapolation_stack_);
-    next_ = extrapolated_ ? extrapolation_stack_ : stack_;
-    if (extrapolated_) MakeRigid(next_, settings_.threads);
     result.time_ms = watch.ElapsedMs();
     return result;
   }
@@ -130,11 +132,13 @@ class Alternator {
   RowWeights weights_, kept_weights_;
   WeightStep weight_step_;
   TransformStep transform_step_;
+  JointStep joint_step_;
+  BonePattern pattern_;
   SkinMoments moments_;
-  Extrapolation extrapolation_;
-  BoneStack stack_;                       // belongs to weights_ and energy_
-  BoneStack next_, extrapolation_stack_;  // where the next alternation goes out from
-  bool extrapolated_ = false;
+  BoneStack stack_;  // belongs to weights_ and energy_
+  BoneStack next_;   // where the next alternation goes out from
+  bool joint_ = false;
+  double damping_ = 1e-2;
   double energy_ = 0.0;
 };
 

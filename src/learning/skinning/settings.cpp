@@ -42,13 +42,13 @@ void Settings::Describe(Fields& f) {
              .max = 100,
              .origin = Origin::kTuned,
              .source = "paper A: 1"});
-  f.Integer(
-      "history", history,
-      {.meaning = "earlier alternations from which the next is extrapolated (Anderson); 0: none",
-       .min = 0,
-       .max = 32,
-       .origin = Origin::kTuned,
-       .source = "the papers: 0"});
+  f.Integer("joint_iterations", joint_iterations,
+            {.meaning = "conjugate gradient iterations, in each alternation, of the step of all "
+                        "transforms that lets the weights follow; 0: plain alternation",
+             .min = 0,
+             .max = 1000,
+             .origin = Origin::kTuned,
+             .source = "the papers: 0"});
   f.Number("least_gain", least_gain,
            {.meaning = "the end is reached when an alternation lowers the RMSE by a smaller share",
             .min = 0,

@@ -17,7 +17,7 @@ struct Settings {
   int neighbour_steps = 2;
   TransformSolver transforms = TransformSolver::kLinearised;
   int transform_steps = 3;
-  int history = 8;
+  int joint_iterations = 10;
   double least_gain = 1e-6;
   int threads = 2;
 

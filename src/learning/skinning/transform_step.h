@@ -1,4 +1,4 @@
-// The other half of an alternation: better rigid transforms of all bones for given weights.
+// Half an alternation: better rigid transforms of all bones for given weights.
 //
 // Poses are independent of each other, and all that a pose's problem knows of the vertices lies in
 // the moments: the cost does not depend on the number of vertices.
@@ -6,30 +6,27 @@
 
 #include <vector>
 
-#include "learning/skinning/bone_stack.h"
+#include "learning/skinning/pose_equations.h"
 #include "learning/skinning/settings.h"
 
 namespace vitruvia::skinning {
 
 class TransformStep {
  public:
-  TransformStep(int bones, int poses, const Settings& settings);
+  TransformStep(int bones, int poses, TransformSolver solver, int steps, int threads);
   ~TransformStep();
 
   // Moves the transforms so that the energy of `moments`, taken at `stack`, does not rise; returns
   // the energy reached. Bones that move no vertex stay where they are.
-  double Solve(const SkinMoments& moments, BoneStack& stack);
+  double Solve(const BonePattern& pattern, const SkinMoments& moments, BoneStack& stack);
 
  private:
   struct Workspace;
 
   TransformSolver solver_;
-  int most_steps_, threads_;
+  int steps_, threads_;
   std::vector<Workspace> workspaces_;
   std::vector<double> gains_;  // per pose
 };
-
-// Replaces the rotations in the stack by the proper ones nearest to them.
-void MakeRigid(BoneStack& stack, int threads);
 
 }  // namespace vitruvia::skinning
