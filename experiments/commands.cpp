@@ -13,6 +13,7 @@
 #include "experiments/experiment_config.h"
 #include "experiments/explain.h"
 #include "experiments/runner.h"
+#include "experiments/scan_command.h"
 #include "experiments/score.h"
 #include "reports/report.h"
 
@@ -136,6 +137,8 @@ void AddCommands(CLI::App& app, Arguments& a) {
   report->add_option("DIR", a.reported, "the experiment's folder")->required();
   report->callback([&a] { fmt::print("report: {}\n", WriteReport(a.reported).string()); });
 
+  AddScanCommand(app);
+
   CLI::App* explain =
       app.add_subcommand("explain", "Say what a setting means; without KEY list all");
   explain->add_option("KEY", a.key, "a setting's key or the beginning of one");
@@ -154,7 +157,8 @@ int RunCommandLine(int argc, const char* const* argv) {
     AddCommands(app, arguments);
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {
-      throw ConfigError("expected a command: list, synth, track, run, report or explain (--help)");
+      throw ConfigError(
+          "expected a command: list, synth, track, run, report, scan or explain (--help)");
     }
     return static_cast<int>(ExitCode::kSuccess);
   } catch (const CLI::Success& success) {  // --help, --version

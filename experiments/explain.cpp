@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "experiments/experiment_config.h"
+#include "experiments/scan.h"
 
 namespace vitruvia {
 namespace {
@@ -12,6 +13,7 @@ std::vector<FieldDescription> AllSettings() {
     all.insert(all.end(), more.begin(), more.end());
   };
   append(Describe<SceneSettings>("scene"));
+  append(Describe<ScanSettings>("scan"));
   for (const MethodInfo& method : Methods()) append(method.settings);
   return all;
 }

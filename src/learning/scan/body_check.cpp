@@ -1,0 +1,69 @@
+#include "learning/scan/body_check.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace vitruvia {
+
+void BodyCheckSettings::Describe(Fields& f) {
+  f.Number("min_area_m2", min_area_m2,
+           {.meaning = "a surface with less area is no body",
+            .unit = "m²",
+            .min = 0.0,
+            .max = 10.0,
+            .origin = Origin::kGuessed,
+            .source = "an adult has 1.4 m² and more"});
+  f.Number("second_body_share", second_body_share,
+           {.meaning = "a second piece with this share of the largest one's area is a second body",
+            .min = 0.0,
+            .max = 1.0,
+            .origin = Origin::kGuessed,
+            .source = "a leg has 0.18 of a body's surface"});
+  f.Number("head_reach_m", head_reach_m,
+           {.meaning = "holes within this distance of the top are looked at as holes for a head",
+            .unit = "m",
+            .min = 0.0,
+            .max = 1.0,
+            .origin = Origin::kGuessed,
+            .source = "a head with its neck"});
+  f.Number("max_head_hole_m", max_head_hole_m,
+           {.meaning = "a longer boundary there is a hole for a head",
+            .unit = "m",
+            .min = 0.0,
+            .max = 10.0,
+            .origin = Origin::kGuessed,
+            .source = "a neck is 0.33 m round and more, a crown seen from the side 0.15 m"});
+}
+
+void RequireOneWholeBody(const ScanSurface& surface, const BodyCheckSettings& settings) {
+  const std::vector<SurfaceComponent>& found = surface.components;
+  const double area_m2 = found.empty() ? 0.0 : found.front().area_m2;
+  if (area_m2 < settings.min_area_m2) {
+    throw DataError(fmt::format(
+        "scan: no body: the largest surface found has {:.3f} m², expected at least {:g} m²",
+        area_m2, settings.min_area_m2));
+  }
+  if (found.size() > 1 && found[1].area_m2 >= settings.second_body_share * area_m2) {
+    const Vector3f a = 0.5f * (found[0].low + found[0].high);
+    const Vector3f b = 0.5f * (found[1].low + found[1].high);
+    throw DataError(fmt::format(
+        "scan: two bodies: surfaces of {:.2f} m² round ({:.2f}, {:.2f}, {:.2f}) and of {:.2f} m² "
+        "round ({:.2f}, {:.2f}, {:.2f}); expected one",
+        area_m2, a.x(), a.y(), a.z(), found[1].area_m2, b.x(), b.y(), b.z()));
+  }
+  float top = found.front().low.y();
+  for (const Vector3f& p : surface.mesh.vertices) top = std::max(top, p.y());
+  for (const BoundaryLoop& hole : surface.holes) {
+    if (hole.center.y() < top - static_cast<float>(settings.head_reach_m) ||
+        hole.perimeter_m <= settings.max_head_hole_m) {
+      continue;
+    }
+    throw DataError(fmt::format(
+        "scan: a hole for a head: at a height of {:.2f} m, {:.2f} m below the top, the surface is "
+        "open along {:.2f} m; expected at most {:g} m",
+        hole.center.y(), top - hole.center.y(), hole.perimeter_m, settings.max_head_hole_m));
+  }
+}
+
+}  // namespace vitruvia

@@ -1,0 +1,85 @@
+// A truncated signed distance function, the average of many depth frames (Curless & Levoy 1996).
+//
+// A voxel is a sample at a point of a lattice. Only blocks of 8×8×8 voxels that come near to a seen
+// surface have memory, in contiguous arrays; a dense grid of block numbers finds them.
+//
+// Distances are positive outside the body, negative inside. Departure from KF: a frame's distance
+// is measured across the surface (the depth difference times the ray's component along the pixel's
+// normal) and not along the ray, so that views from different sides agree away from the surface.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/camera.h"
+#include "learning/scan/point_map.h"
+#include "learning/scan/settings.h"
+
+namespace vitruvia {
+
+class TsdfVolume {
+ public:
+  static constexpr int kBlockSide = 8;
+  static constexpr int kBlockVoxels = kBlockSide * kBlockSide * kBlockSide;
+  using Lattice = std::array<int, 3>;
+
+  explicit TsdfVolume(const VolumeSettings& settings);
+
+  // Averages a frame in. `seen` are the frame's points (camera frame) and normals; pixels without a
+  // normal are left out. RunError if the surface seen so far needs more blocks than a body can.
+  void Integrate(const DepthImage& depth, const PointMap& seen, const PinholeCamera& camera,
+                 const Rigidd& subject_from_camera, int threads);
+
+  // The surface as a camera sees it: points and normals in the subject frame. Pixels whose ray
+  // leaves the observed space, or meets the surface from behind, have none.
+  PointMap Raycast(const PinholeCamera& camera, const Rigidd& subject_from_camera,
+                   int threads) const;
+
+  // Averaged distance in metres (within ± truncation) and weight at a lattice point; weight 0 where
+  // nothing was observed.
+  struct Voxel {
+    float distance_m = 0.0f;
+    float weight = 0.0f;
+  };
+  Voxel At(const Lattice& point) const;
+
+  // Trilinear distance in metres; false if one of the eight voxels round `position` (lattice units)
+  // is unobserved.
+  bool Interpolate(const Vector3f& position, float& distance_m) const;
+
+  int block_count() const { return static_cast<int>(block_corners_.size()); }
+  // The lowest lattice point of each block with memory.
+  const std::vector<Lattice>& block_corners() const { return block_corners_; }
+  Vector3f ToLattice(const Vector3f& point_in_subject) const {
+    return (point_in_subject - low_) / voxel_m_;
+  }
+  Vector3f FromLattice(const Vector3f& position) const { return low_ + voxel_m_ * position; }
+  float voxel_m() const { return voxel_m_; }
+
+ private:
+  struct Range;  // of depths at which a tile of the image may hold a surface
+  struct View;   // a frame being integrated
+
+  int BlockAt(int bx, int by, int bz) const;
+  std::int64_t IndexOf(int x, int y, int z) const;  // into the arrays; -1: no memory
+  void MakeRoom(const PointMap& seen, const Rigidd& subject_from_camera);
+  void MakeBlock(const Vector3f& point_in_subject);
+  void IntegrateBlock(int block, const View& view);
+  std::vector<Range> DepthRanges(const PinholeCamera& camera,
+                                 const Rigidd& camera_from_subject) const;
+  bool March(const Vector3f& origin, const Vector3f& ray, const Range& range,
+             Vector3f& hit_in_lattice) const;
+  Vector3f Gradient(const Vector3f& position) const;  // unit length, or zero
+
+  VolumeSettings settings_;
+  float voxel_m_, truncation_m_;
+  Vector3f low_;
+  std::array<int, 3> blocks_;                // of the dense grid
+  std::vector<std::int32_t> block_numbers_;  // dense; -1: no memory
+  std::vector<Lattice> block_corners_;
+  std::vector<float> distances_;  // blocks × 512, in units of the truncation
+  std::vector<float> weights_;    // blocks × 512
+};
+
+}  // namespace vitruvia

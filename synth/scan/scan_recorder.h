@@ -1,0 +1,48 @@
+// The depth frames of a scan, rendered one by one, and the truth about them.
+#pragma once
+
+#include <memory>
+
+#include "body/body_model.h"
+#include "geometry/image.h"
+#include "synth/scan/scan_scene.h"
+
+namespace vitruvia {
+
+struct ScanFrame {
+  DepthImage depth;  // as a sensor stores it: in steps of sensor.depth_unit_m
+  // From the subject as it stood at the first frame. The subject sways, and a scan can only know
+  // where the camera is relative to it: this follows the chest.
+  Rigidd camera_from_subject;
+};
+
+class ScanRecorder {
+ public:
+  explicit ScanRecorder(const ScanSceneSettings& settings);
+  ~ScanRecorder();
+
+  const ScanSceneSettings& settings() const { return settings_; }
+  // The subject, in the T-pose.
+  const BodyModel& body() const { return body_; }
+  // Its surface as it stands at the first frame: what a scan should find. Subject frame.
+  const TriangleMesh& surface() const { return surface_; }
+
+  // Frames 0 … settings.frames − 1, in any order. ConfigError if the body comes too near to the
+  // camera or too far from it to be rendered.
+  ScanFrame Render(int frame);
+
+ private:
+  struct Jitter;
+
+  std::vector<Vector3f> Stand(double time_s, BoneTransforms& bones) const;
+  Rigidd CameraAt(int frame) const;
+
+  ScanSceneSettings settings_;
+  BodyModel body_;
+  TriangleMesh surface_;
+  Rigidd chest_at_start_;  // posed_from_rest
+  std::unique_ptr<Jitter> jitter_;
+  std::unique_ptr<class DepthRenderer> renderer_;
+};
+
+}  // namespace vitruvia
