@@ -26,7 +26,7 @@ void BodyCheckSettings::Describe(Fields& f) {
             .min = 0.0,
             .max = 1.0,
             .origin = Origin::kGuessed,
-            .source = "a head with its neck"});
+            .source = "above the chin: what lies below may be hidden by it"});
   f.Number("max_head_hole_m", max_head_hole_m,
            {.meaning = "a longer boundary there is a hole for a head",
             .unit = "m",

@@ -8,7 +8,7 @@ namespace vitruvia {
 struct BodyCheckSettings {
   double min_area_m2 = 0.5;
   double second_body_share = 0.3;
-  double head_reach_m = 0.3;
+  double head_reach_m = 0.12;
   double max_head_hole_m = 0.3;
 
   void Describe(Fields& fields);

@@ -27,9 +27,12 @@ DepthImage Smoothed(const DepthImage& depth, const SmoothingSettings& settings, 
 DepthImage Halved(const DepthImage& depth, double jump_m);
 PinholeCamera Halved(const PinholeCamera& camera);
 
-// Points in the camera frame. Normals come from the differences to the neighbours on either side,
-// or to one of them where the other lies beyond a jump of depth_jump_m or has no depth.
-PointMap MakePointMap(const DepthImage& depth, const PinholeCamera& camera, double depth_jump_m,
-                      int threads);
+// Points in the camera frame, of `depth`; normals of `smooth_depth`, which has a measurement
+// wherever `depth` has. (A least-squares fit averages the points' noise out by itself, and
+// smoothing would draw them into the body wherever that is round.) Normals come from the
+// differences to the neighbours on either side, or to one of them where the other lies beyond a
+// jump of depth_jump_m or has no depth.
+PointMap MakePointMap(const DepthImage& depth, const DepthImage& smooth_depth,
+                      const PinholeCamera& camera, double depth_jump_m, int threads);
 
 }  // namespace vitruvia

@@ -39,15 +39,17 @@ ScanFusion::ScanFusion(const ScanFusionSettings& settings, const PinholeCamera& 
 
 std::vector<PointMap> ScanFusion::Pyramid(const DepthImage& depth) const {
   const double jump_m = settings_.volume.depth_jump_m;
-  DepthImage level_depth = Smoothed(depth, settings_.smoothing, settings_.threads);
+  DepthImage level_depth = depth;
+  DepthImage smooth_depth = Smoothed(depth, settings_.smoothing, settings_.threads);
   PinholeCamera camera = camera_;
   std::vector<PointMap> pyramid;
   for (std::size_t level = 0; level < settings_.alignment.iterations.size(); ++level) {
     if (level > 0) {
       level_depth = Halved(level_depth, jump_m);
+      smooth_depth = Halved(smooth_depth, jump_m);
       camera = Halved(camera);
     }
-    pyramid.push_back(MakePointMap(level_depth, camera, jump_m, settings_.threads));
+    pyramid.push_back(MakePointMap(level_depth, smooth_depth, camera, jump_m, settings_.threads));
   }
   return pyramid;
 }
@@ -123,8 +125,9 @@ FusedFrame ScanFusion::FuseFrame(const DepthImage& depth) {
 }
 
 ScanSurface ScanFusion::Surface() const {
-  return Cleaned(ExtractSurface(volume_, settings_.surface.min_weight),
-                 kShortEdge * settings_.volume.voxel_m, settings_.surface.island_share);
+  const double min_weight = settings_.surface.min_weight / settings_.stride;
+  return Cleaned(ExtractSurface(volume_, min_weight), kShortEdge * settings_.volume.voxel_m,
+                 settings_.surface.island_share);
 }
 
 }  // namespace vitruvia

@@ -186,13 +186,15 @@ void LossSettings::Describe(Fields& f) {
 }
 
 void SurfaceSettings::Describe(Fields& f) {
-  f.Number("min_weight", min_weight,
-           {.meaning = "the surface lies between voxels of at least this weight; a frontal view "
-                       "from 1 m counts 1",
-            .min = 0.0,
-            .max = 1e6,
-            .origin = Origin::kGuessed,
-            .source = "a few frames: flying pixels have less"});
+  f.Number(
+      "min_weight", min_weight,
+      {.meaning = "the surface lies between voxels of at least this weight; a frame counts the "
+                  "cosine at which it sees the surface, per metre of distance, and "
+                  "frames that are skipped count, too",
+       .min = 0.0,
+       .max = 1e6,
+       .origin = Origin::kGuessed,
+       .source = "a few frames: flying pixels have less"});
   f.Number("island_share", island_share,
            {.meaning = "pieces with less than this share of the largest piece's area are dropped",
             .min = 0.0,

@@ -9,11 +9,14 @@
 namespace vitruvia {
 namespace {
 
-constexpr int kTile = 8;          // pixels
-constexpr float kNearM = 0.05f;   // nothing is looked for nearer to the camera
-constexpr float kCareful = 0.8f;  // of a distance is stepped: it is measured only approximately
-constexpr int kRefinements = 2;   // of a crossing, by false position
-constexpr int kSide = TsdfVolume::kBlockSide;
+constexpr int kTile = 8;             // pixels
+constexpr float kNearM = 0.05f;      // nothing is looked for nearer to the camera
+constexpr float kCareful = 0.8f;     // of a distance is stepped: it is measured only approximately
+constexpr int kRefinements = 2;      // of a crossing, by false position
+constexpr float kBlindStep = 1.0f;   // voxels, where a block has not been observed
+constexpr float kPastBlock = 0.01f;  // voxels beyond a block's end: surely in the next one
+constexpr int kSide = TsdfVolume::kBlockSide, kSideBits = 3;
+static_assert(kSide == 1 << kSideBits);
 
 }  // namespace
 
@@ -62,52 +65,75 @@ std::vector<TsdfVolume::Range> TsdfVolume::DepthRanges(const PinholeCamera& came
   return ranges;
 }
 
+namespace {
+
+// How far along a ray (in its own units) the block round a voxel ends.
+float BlockExit(const Vector3f& position, const Vector3f& ray, const std::array<int, 3>& voxel) {
+  float exit = std::numeric_limits<float>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (ray[axis] == 0.0f) continue;
+    const int first = (voxel[axis] >> kSideBits) << kSideBits;
+    const float plane = static_cast<float>(ray[axis] > 0.0f ? first + kSide : first) - 0.5f;
+    exit = std::min(exit, (plane - position[axis]) / ray[axis]);
+  }
+  return std::max(exit, 0.0f);
+}
+
+}  // namespace
+
 // Walks along origin + z ray (lattice units per metre of depth) from outside to the first crossing.
 bool TsdfVolume::March(const Vector3f& origin, const Vector3f& ray, const Range& range,
                        Vector3f& hit) const {
-  const float lattice_per_z = ray.norm();  // lattice units per metre of depth
-  const float blind_step = 0.5f * std::min(static_cast<float>(kSide), truncation_m_ / voxel_m_);
+  const float z_per_voxel = 1.0f / ray.norm();
   float last_z = 0.0f, last_distance = 0.0f;  // last_distance 0: none yet
   for (float z = range.near_z; z <= range.far_z;) {
     const Vector3f position = origin + z * ray;
-    const std::int64_t index = IndexOf(static_cast<int>(std::lround(position.x())),
-                                       static_cast<int>(std::lround(position.y())),
-                                       static_cast<int>(std::lround(position.z())));
-    if (index < 0 || weights_[index] <= 0.0f) {
+    const Lattice voxel = {static_cast<int>(std::floor(position.x() + 0.5f)),
+                           static_cast<int>(std::floor(position.y() + 0.5f)),
+                           static_cast<int>(std::floor(position.z() + 0.5f))};
+    const std::int64_t index = IndexOf(voxel[0], voxel[1], voxel[2]);
+    if (index < 0) {
       last_distance = 0.0f;
-      z += blind_step / lattice_per_z;
+      z += BlockExit(position, ray, voxel) + kPastBlock * z_per_voxel;
+      continue;
+    }
+    if (weights_[index] <= 0.0f) {
+      last_distance = 0.0f;
+      z += kBlindStep * z_per_voxel;
       continue;
     }
     float distance = distances_[index] * truncation_m_;
     const bool close = std::abs(distance) < 2.0f * voxel_m_;
     if (close && !Interpolate(position, distance)) {
       last_distance = 0.0f;
-      z += 1.0f / lattice_per_z;
+      z += kBlindStep * z_per_voxel;
       continue;
     }
     if (distance <= 0.0f) {
-      if (last_distance <= 0.0f) return false;  // from behind
-      for (int i = 0; i < kRefinements; ++i) {
-        const float middle_z = last_z + (z - last_z) * last_distance / (last_distance - distance);
-        float middle = 0.0f;
-        if (!Interpolate(origin + middle_z * ray, middle)) return false;
-        if (middle > 0.0f) {
-          last_z = middle_z;
-          last_distance = middle;
-        } else {
-          z = middle_z;
-          distance = middle;
-        }
-      }
-      const float crossing = last_z + (z - last_z) * last_distance / (last_distance - distance);
-      hit = origin + crossing * ray;
-      return true;
+      return last_distance > 0.0f &&  // or it comes from behind
+             Refine(origin, ray, {last_z, last_distance}, {z, distance}, hit);
     }
     last_z = z;
     last_distance = distance;
-    z += std::max(kCareful * distance / voxel_m_, 0.5f) / lattice_per_z;
+    z += std::max(kCareful * distance / voxel_m_, 0.5f) * z_per_voxel;
   }
   return false;
+}
+
+// The crossing between a sample outside and one inside, by false position.
+bool TsdfVolume::Refine(const Vector3f& origin, const Vector3f& ray, Sample outside, Sample inside,
+                        Vector3f& hit) const {
+  const auto crossing = [&] {
+    return outside.z +
+           (inside.z - outside.z) * outside.distance_m / (outside.distance_m - inside.distance_m);
+  };
+  for (int i = 0; i < kRefinements; ++i) {
+    Sample middle{crossing(), 0.0f};
+    if (!Interpolate(origin + middle.z * ray, middle.distance_m)) return false;
+    (middle.distance_m > 0.0f ? outside : inside) = middle;
+  }
+  hit = origin + crossing() * ray;
+  return true;
 }
 
 Vector3f TsdfVolume::Gradient(const Vector3f& position) const {

@@ -15,7 +15,8 @@ constexpr int kMaxBlocks = 200000;  // 100 million voxels: ten times what a body
 // otherwise count more on one side of the surface than on the other.
 constexpr float kFullWeightBehind = 0.5f;
 
-constexpr int kSide = TsdfVolume::kBlockSide;
+constexpr int kSide = TsdfVolume::kBlockSide, kSideBits = 3, kSideMask = kSide - 1;
+static_assert(kSide == 1 << kSideBits);
 
 }  // namespace
 
@@ -44,10 +45,10 @@ int TsdfVolume::BlockAt(int bx, int by, int bz) const {
 
 std::int64_t TsdfVolume::IndexOf(int x, int y, int z) const {
   if (x < 0 || y < 0 || z < 0) return -1;
-  const int block = BlockAt(x / kSide, y / kSide, z / kSide);
+  const int block = BlockAt(x >> kSideBits, y >> kSideBits, z >> kSideBits);
   if (block < 0) return -1;
   return static_cast<std::int64_t>(block) * kBlockVoxels +
-         ((z % kSide) * kSide + y % kSide) * kSide + x % kSide;
+         ((((z & kSideMask) << kSideBits) + (y & kSideMask)) << kSideBits) + (x & kSideMask);
 }
 
 TsdfVolume::Voxel TsdfVolume::At(const Lattice& point) const {
@@ -62,8 +63,8 @@ bool TsdfVolume::Interpolate(const Vector3f& position, float& distance_m) const 
   if (!(x >= 0.0f && y >= 0.0f && z >= 0.0f)) return false;
   const int i = static_cast<int>(x), j = static_cast<int>(y), k = static_cast<int>(z);
   std::array<float, 8> corners;
-  const int li = i % kSide, lj = j % kSide, lk = k % kSide;
-  if (li < kSide - 1 && lj < kSide - 1 && lk < kSide - 1) {  // all in one block
+  if ((i & kSideMask) < kSideMask && (j & kSideMask) < kSideMask &&
+      (k & kSideMask) < kSideMask) {  // all in one block
     const std::int64_t first = IndexOf(i, j, k);
     if (first < 0) return false;
     for (int c = 0; c < 8; ++c) {
@@ -129,58 +130,68 @@ void TsdfVolume::MakeRoom(const PointMap& seen, const Rigidd& subject_from_camer
 
 // What integration wants to know of each pixel.
 struct TsdfVolume::View {
+  struct Pixel {
+    float depth_m = 0.0f;
+    float across = 0.0f;  // metres across the surface per metre of depth; 0: not to be used
+    float weight = 0.0f;
+    float behind = 0.0f;  // in truncations: how far behind the surface the pixel speaks
+  };
+  static constexpr int kTile = 8;  // pixels
+
   const DepthImage& depth;
   PinholeCamera camera;
   Rigidf camera_from_subject;
-  Image<float> across;  // metres across the surface per metre of depth; 0: not to be used
-  Image<float> weight;
+  Image<Pixel> pixels;
+  Image<std::uint8_t> smooth;  // 1: this pixel and those right, below and both are one surface
   int tile_columns = 0;
-  std::vector<float> nearest, farthest;  // depth of the pixels of each tile; farthest 0: none
-  float jump_m = 0.0f;
-
-  static constexpr int kTile = 8;  // pixels
+  std::vector<float> farthest;  // depth of the usable pixels of each tile; 0: none
 
   View(const DepthImage& depth_in, const PointMap& seen, const PinholeCamera& camera_in,
        const Rigidd& subject_from_camera, const VolumeSettings& settings)
       : depth(depth_in),
         camera(camera_in),
         camera_from_subject(Inverse(subject_from_camera).Cast<float>()),
-        across(depth.width(), depth.height()),
-        weight(depth.width(), depth.height()),
+        pixels(depth.width(), depth.height()),
+        smooth(depth.width(), depth.height()),
         tile_columns((depth.width() + kTile - 1) / kTile),
-        jump_m(static_cast<float>(settings.depth_jump_m)) {
-    const int tile_rows = (depth.height() + kTile - 1) / kTile;
-    nearest.assign(static_cast<std::size_t>(tile_columns) * tile_rows, 0.0f);
-    farthest = nearest;
+        farthest(static_cast<std::size_t>(tile_columns) * ((depth.height() + kTile - 1) / kTile)) {
+    const auto jump_m = static_cast<float>(settings.depth_jump_m);
     for (int v = 0; v < depth.height(); ++v) {
       for (int u = 0; u < depth.width(); ++u) {
         if (!seen.Has(u, v)) continue;
         const float z = depth(u, v);
+        smooth(u, v) = IsSmooth(depth, u, v, jump_m) ? 1 : 0;
         const Vector3f ray = seen.points(u, v) / seen.points(u, v).z();
-        const float slope = -seen.normals(u, v).dot(ray);
-        const float cosine = slope / ray.norm();
+        const float across = -seen.normals(u, v).dot(ray), ray_length = ray.norm();
+        const float cosine = across / ray_length;
         if (cosine < static_cast<float>(settings.min_cosine) || cosine <= 0.0f) continue;
-        across(u, v) = slope;
-        weight(u, v) = cosine / (z * ray.norm());  // KF, sec. 3.3: W ∝ cos θ / R
-        const std::size_t tile = static_cast<std::size_t>(v / kTile) * tile_columns + u / kTile;
-        nearest[tile] = farthest[tile] == 0.0f ? z : std::min(nearest[tile], z);
-        farthest[tile] = std::max(farthest[tile], z);
+        // KF, sec. 3.3: W ∝ cos θ / R. A ray that grazes a round body soon leaves it again, so that
+        // what it says of the space behind its pixel is cut short, too.
+        pixels(u, v) = {z, across, cosine / (z * ray_length), cosine * cosine};
+        float& far_z = farthest[static_cast<std::size_t>(v / kTile) * tile_columns + u / kTile];
+        far_z = std::max(far_z, z);
       }
     }
   }
 
-  // Depth between pixel centres: bilinear within a surface, the nearest pixel's elsewhere.
-  float DepthAt(float u, float v, int nearest_u, int nearest_v) const {
-    const int u0 = static_cast<int>(u), v0 = static_cast<int>(v);
-    const float here = depth(nearest_u, nearest_v);
-    if (u < 0.0f || v < 0.0f || u0 + 1 >= depth.width() || v0 + 1 >= depth.height()) return here;
-    const float a = depth(u0, v0), b = depth(u0 + 1, v0), c = depth(u0, v0 + 1),
-                d = depth(u0 + 1, v0 + 1);
+  static bool IsSmooth(const DepthImage& depth, int u, int v, float jump_m) {
+    if (u + 1 >= depth.width() || v + 1 >= depth.height()) return false;
+    const float a = depth(u, v), b = depth(u + 1, v), c = depth(u, v + 1), d = depth(u + 1, v + 1);
     const float low = std::min(std::min(a, b), std::min(c, d));
     const float high = std::max(std::max(a, b), std::max(c, d));
-    if (low <= 0.0f || high - low > jump_m) return here;
+    return low > 0.0f && high - low <= jump_m;
+  }
+
+  // Depth between pixel centres: bilinear within a surface, the nearest pixel's elsewhere.
+  float DepthAt(float u, float v, const Pixel& nearest) const {
+    if (u < 0.0f || v < 0.0f) return nearest.depth_m;
+    const int u0 = static_cast<int>(u), v0 = static_cast<int>(v);
+    if (smooth(u0, v0) == 0) return nearest.depth_m;
     const float fu = u - static_cast<float>(u0), fv = v - static_cast<float>(v0);
-    const float top = a + fu * (b - a), bottom = c + fu * (d - c);
+    const float* above = &depth(u0, v0);
+    const float* below = above + depth.width();
+    const float top = above[0] + fu * (above[1] - above[0]);
+    const float bottom = below[0] + fu * (below[1] - below[0]);
     return top + fv * (bottom - top);
   }
 
@@ -188,27 +199,48 @@ struct TsdfVolume::View {
   bool Reaches(const Vector3f& center, float radius_m, float truncation_m) const {
     const float near_z = center.z() - radius_m;
     if (near_z <= 0.0f) return center.z() + radius_m > 0.0f;
-    const auto first = [](double low, int limit) {
-      return std::clamp(static_cast<int>(std::floor(low)), 0, limit) / kTile;
-    };
-    const double fu = camera.fx / near_z, fv = camera.fy / near_z;
     const double u = camera.cx + camera.fx * center.x() / center.z();
     const double v = camera.cy + camera.fy * center.y() / center.z();
-    const double ru = fu * radius_m * kPerspective, rv = fv * radius_m * kPerspective;
+    const double ru = camera.fx * radius_m / near_z * kPerspective;
+    const double rv = camera.fy * radius_m / near_z * kPerspective;
     if (u + ru < 0.0 || v + rv < 0.0 || u - ru > camera.width || v - rv > camera.height) {
       return false;
     }
-    for (int tv = first(v - rv, camera.height - 1); tv <= first(v + rv, camera.height - 1); ++tv) {
-      for (int tu = first(u - ru, camera.width - 1); tu <= first(u + ru, camera.width - 1); ++tu) {
-        const std::size_t tile = static_cast<std::size_t>(tv) * tile_columns + tu;
-        if (farthest[tile] > 0.0f && near_z <= farthest[tile] + truncation_m) return true;
+    const auto tile = [](double at, int limit) {
+      return std::clamp(static_cast<int>(at), 0, limit - 1) / kTile;
+    };
+    for (int tv = tile(v - rv, camera.height); tv <= tile(v + rv, camera.height); ++tv) {
+      for (int tu = tile(u - ru, camera.width); tu <= tile(u + ru, camera.width); ++tu) {
+        const float far_z = farthest[static_cast<std::size_t>(tv) * tile_columns + tu];
+        if (far_z > 0.0f && near_z <= far_z + truncation_m) return true;
       }
     }
     return false;
   }
 
-  static constexpr double kPerspective = 1.3;  // a ball's outline away from the image's middle
+  static constexpr float kPerspective = 1.3f;  // a ball's outline away from the image's middle
 };
+
+namespace {
+
+// Eight neighbouring voxels on their way into the image.
+struct VoxelRow {
+  std::array<float, kSide> z, u, v;
+
+  VoxelRow(const Vector3f& first, const Vector3f& step, const PinholeCamera& camera) {
+    const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
+    const auto cx = static_cast<float>(camera.cx), cy = static_cast<float>(camera.cy);
+    for (int i = 0; i < kSide; ++i) {
+      const auto steps = static_cast<float>(i);
+      const float depth = first.z() + steps * step.z(), inverse = 1.0f / depth;
+      z[i] = depth;
+      u[i] = fx * (first.x() + steps * step.x()) * inverse + cx;
+      v[i] = fy * (first.y() + steps * step.y()) * inverse + cy;
+    }
+  }
+};
+
+}  // namespace
 
 void TsdfVolume::IntegrateBlock(int block, const View& view) {
   const Lattice& corner = block_corners_[static_cast<std::size_t>(block)];
@@ -216,41 +248,34 @@ void TsdfVolume::IntegrateBlock(int block, const View& view) {
                                     static_cast<float>(corner[2])});
   const float half = 0.5f * (kSide - 1) * voxel_m_;
   const Vector3f middle = view.camera_from_subject * (low + Vector3f::Constant(half));
-  // A slope of min_cosine lets depth differ by more than the truncation where distance does not.
-  const float reach_m = truncation_m_ / std::max(static_cast<float>(settings_.min_cosine), 0.05f);
-  if (!view.Reaches(middle, std::sqrt(3.0f) * half, reach_m)) return;
+  if (!view.Reaches(middle, std::sqrt(3.0f) * half, truncation_m_)) return;
 
   const Vector3f first = view.camera_from_subject * low;
   const Matrix3<float> axes = view.camera_from_subject.rotation * voxel_m_;
-  const auto fx = static_cast<float>(view.camera.fx), fy = static_cast<float>(view.camera.fy);
-  const auto cx = static_cast<float>(view.camera.cx), cy = static_cast<float>(view.camera.cy);
-  const float u_end = static_cast<float>(view.depth.width()) - 0.5f;
-  const float v_end = static_cast<float>(view.depth.height()) - 0.5f;
+  const float u_end = static_cast<float>(view.pixels.width()) - 0.5f;
+  const float v_end = static_cast<float>(view.pixels.height()) - 0.5f;
   const auto max_weight = static_cast<float>(settings_.max_weight);
   const float per_truncation = 1.0f / truncation_m_;
   float* distance = distances_.data() + static_cast<std::size_t>(block) * kBlockVoxels;
   float* weight = weights_.data() + static_cast<std::size_t>(block) * kBlockVoxels;
-  for (int z = 0; z < kSide; ++z) {
-    for (int y = 0; y < kSide; ++y) {
-      const Vector3f row =
-          first + static_cast<float>(y) * axes.col(1) + static_cast<float>(z) * axes.col(2);
-      for (int x = 0; x < kSide; ++x, ++distance, ++weight) {
-        const Vector3f p = row + static_cast<float>(x) * axes.col(0);
-        if (p.z() <= 0.0f) continue;
-        const float inverse_z = 1.0f / p.z();
-        const float u = fx * p.x() * inverse_z + cx, v = fy * p.y() * inverse_z + cy;
-        if (!(u >= -0.5f && v >= -0.5f && u < u_end && v < v_end)) continue;
-        const int nearest_u = static_cast<int>(u + 0.5f), nearest_v = static_cast<int>(v + 0.5f);
-        const float across = view.across(nearest_u, nearest_v);
-        if (across == 0.0f) continue;
-        const float seen_z = view.DepthAt(u, v, nearest_u, nearest_v);
-        const float d = (seen_z - p.z()) * across * per_truncation;
-        if (d <= -1.0f) continue;
-        const float fade = d < -kFullWeightBehind ? (1.0f + d) / (1.0f - kFullWeightBehind) : 1.0f;
-        const float w = view.weight(nearest_u, nearest_v) * fade;
-        *distance = (*distance * *weight + std::min(d, 1.0f) * w) / (*weight + w);
-        *weight = std::min(*weight + w, max_weight);
-      }
+  for (int yz = 0; yz < kSide * kSide; ++yz) {
+    const Vector3f start = first + static_cast<float>(yz & kSideMask) * axes.col(1) +
+                           static_cast<float>(yz >> kSideBits) * axes.col(2);
+    const VoxelRow row(start, axes.col(0), view.camera);
+    for (int x = 0; x < kSide; ++x, ++distance, ++weight) {
+      const float u = row.u[x], v = row.v[x];
+      if (!(row.z[x] > 0.0f && u >= -0.5f && v >= -0.5f && u < u_end && v < v_end)) continue;
+      const View::Pixel& pixel =
+          view.pixels(static_cast<int>(u + 0.5f), static_cast<int>(v + 0.5f));
+      if (pixel.across == 0.0f) continue;
+      const float d = (view.DepthAt(u, v, pixel) - row.z[x]) * pixel.across * per_truncation;
+      const float behind = -d / pixel.behind;  // 1: the end of what counts
+      if (behind >= 1.0f) continue;
+      const float fade =
+          behind > kFullWeightBehind ? (1.0f - behind) / (1.0f - kFullWeightBehind) : 1.0f;
+      const float w = pixel.weight * fade;
+      *distance = (*distance * *weight + std::min(d, 1.0f) * w) / (*weight + w);
+      *weight = std::min(*weight + w, max_weight);
     }
   }
 }

@@ -58,8 +58,11 @@ class TsdfVolume {
   float voxel_m() const { return voxel_m_; }
 
  private:
-  struct Range;  // of depths at which a tile of the image may hold a surface
-  struct View;   // a frame being integrated
+  struct Range;    // of depths at which a tile of the image may hold a surface
+  struct View;     // a frame being integrated
+  struct Sample {  // on a ray
+    float z, distance_m;
+  };
 
   int BlockAt(int bx, int by, int bz) const;
   std::int64_t IndexOf(int x, int y, int z) const;  // into the arrays; -1: no memory
@@ -70,6 +73,8 @@ class TsdfVolume {
                                  const Rigidd& camera_from_subject) const;
   bool March(const Vector3f& origin, const Vector3f& ray, const Range& range,
              Vector3f& hit_in_lattice) const;
+  bool Refine(const Vector3f& origin, const Vector3f& ray, Sample outside, Sample inside,
+              Vector3f& hit_in_lattice) const;
   Vector3f Gradient(const Vector3f& position) const;  // unit length, or zero
 
   VolumeSettings settings_;
