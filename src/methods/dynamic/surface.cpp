@@ -73,7 +73,9 @@ Surface<Scalar>::Surface(const SkinWeights& skin, const std::vector<Vector3f>& r
     for (int slot = patch.begin; slot < patch.end; ++slot) {
       if (layout.vertex_of_slot[slot] >= 0) vertex = layout.vertex_of_slot[slot];
       rest.Set(slot, rest_vertices[vertex].template cast<Scalar>());
-      rest_normals.Set(slot, rest_unit_normals[vertex].template cast<Scalar>());
+      if (layout.vertex_of_slot[slot] >= 0) {
+        rest_normals.Set(slot, rest_unit_normals[vertex].template cast<Scalar>());
+      }
       for (int k = 0; k < patch.influences; ++k) {
         weights[k][slot] = static_cast<Scalar>(WeightOf(skin, vertex, patch.bones[k]));
       }
