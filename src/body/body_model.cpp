@@ -97,37 +97,6 @@ std::vector<BoneFile> ToBoneFiles(const Skeleton& skeleton) {
   return bones;
 }
 
-SkinWeights ReadWeights(const fs::path& file, std::size_t vertex_count) {
-  const std::string bytes = ReadWholeFile(file);
-  if (bytes.size() != vertex_count * kVertexBytes) {
-    throw DataError(fmt::format("{}: {} bytes, expected {} for {} vertices", file.string(),
-                                bytes.size(), vertex_count * kVertexBytes, vertex_count));
-  }
-  SkinWeights weights;
-  weights.bones.resize(vertex_count);
-  weights.weights.resize(vertex_count);
-  const char* at = bytes.data();
-  for (std::size_t v = 0; v < vertex_count; ++v) {
-    for (int k = 0; k < kMaxInfluences; ++k, at += kInfluenceBytes) {
-      weights.bones[v][k] = static_cast<std::uint8_t>(*at);
-      std::memcpy(&weights.weights[v][k], at + kWeightOffset, sizeof(float));
-    }
-  }
-  return weights;
-}
-
-void WriteWeights(const fs::path& file, const SkinWeights& weights) {
-  std::string bytes(weights.size() * kVertexBytes, '\0');
-  char* at = bytes.data();
-  for (std::size_t v = 0; v < weights.size(); ++v) {
-    for (int k = 0; k < kMaxInfluences; ++k, at += kInfluenceBytes) {
-      *at = static_cast<char>(weights.bones[v][k]);
-      std::memcpy(at + kWeightOffset, &weights.weights[v][k], sizeof(float));
-    }
-  }
-  WriteWholeFile(file, bytes);
-}
-
 std::string SkeletonProblem(const Skeleton& skeleton) {
   for (int b = 0; b < kBoneCount; ++b) {
     if (!skeleton.joints[b].allFinite()) {
@@ -161,6 +130,37 @@ std::string SurfaceProblem(const TriangleMesh& mesh) {
 }
 
 }  // namespace
+
+SkinWeights ReadWeights(const fs::path& file, std::size_t vertex_count) {
+  const std::string bytes = ReadWholeFile(file);
+  if (bytes.size() != vertex_count * kVertexBytes) {
+    throw DataError(fmt::format("{}: {} bytes, expected {} for {} vertices", file.string(),
+                                bytes.size(), vertex_count * kVertexBytes, vertex_count));
+  }
+  SkinWeights weights;
+  weights.bones.resize(vertex_count);
+  weights.weights.resize(vertex_count);
+  const char* at = bytes.data();
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    for (int k = 0; k < kMaxInfluences; ++k, at += kInfluenceBytes) {
+      weights.bones[v][k] = static_cast<std::uint8_t>(*at);
+      std::memcpy(&weights.weights[v][k], at + kWeightOffset, sizeof(float));
+    }
+  }
+  return weights;
+}
+
+void WriteWeights(const fs::path& file, const SkinWeights& weights) {
+  std::string bytes(weights.size() * kVertexBytes, '\0');
+  char* at = bytes.data();
+  for (std::size_t v = 0; v < weights.size(); ++v) {
+    for (int k = 0; k < kMaxInfluences; ++k, at += kInfluenceBytes) {
+      *at = static_cast<char>(weights.bones[v][k]);
+      std::memcpy(at + kWeightOffset, &weights.weights[v][k], sizeof(float));
+    }
+  }
+  WriteWholeFile(file, bytes);
+}
 
 void CheckBodyModel(const BodyModel& body, const std::string& where) {
   for (const std::string& problem :

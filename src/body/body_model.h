@@ -33,4 +33,8 @@ void CheckBodyModel(const BodyModel& body, const std::string& where);
 BodyModel ReadBodyModel(const std::filesystem::path& folder);
 void WriteBodyModel(const std::filesystem::path& folder, const BodyModel& body);
 
+// weights.bin by itself. DataError if it is not for that many vertices.
+SkinWeights ReadWeights(const std::filesystem::path& file, std::size_t vertex_count);
+void WriteWeights(const std::filesystem::path& file, const SkinWeights& weights);
+
 }  // namespace vitruvia

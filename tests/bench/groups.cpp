@@ -4,10 +4,12 @@
 
 namespace vitruvia::bench {
 
+std::vector<Row> FitShape();
 std::vector<Row> LearnWeights();
 
 std::span<const Group> Groups() {
   static constexpr std::array kGroups = {
+      Group{"fit_shape", FitShape},
       Group{"learn_weights", LearnWeights},
   };
   return kGroups;

@@ -6,7 +6,6 @@
 #include "bench/bench.h"
 #include "core/random.h"
 #include "learning/skinning/decomposition.h"
-#include "learning/skinning/simplex_qp.h"
 #include "synth/bodies/body_source.h"
 #include "synth/motions/motion.h"
 
@@ -69,8 +68,7 @@ Decomposition Learn(const BodyModel& body, const Examples& examples, int alterna
   settings.least_gain = 0.0;
   const Labels labels = HeaviestBones(body.weights);
   const BoneGraph candidates =
-      BonesWithin(NeighboursOnSurface(labels, body.rest.triangles, kBoneCount, settings.neighbours),
-                  settings.neighbour_steps, kMaxCandidates);
+      CandidateBones(labels, body.rest.triangles, kBoneCount, settings);
   return Decompose(examples, labels, candidates, settings);
 }
 

@@ -155,6 +155,8 @@ Decomposition Decompose(const Examples& examples, const Labels& labels, const Bo
   const std::string label_problem =
       LabelsProblem(labels, examples.rest.size(), static_cast<int>(candidates.size()));
   Require(label_problem.empty(), "Decompose: {}", label_problem);
+  const std::string candidate_problem = CandidatesProblem(candidates);
+  Require(candidate_problem.empty(), "Decompose: {}", candidate_problem);
   Alternator alternator(examples, labels, candidates, settings);
   Decomposition result;
   result.rmse_m = result.start_rmse_m = alternator.FitRigidPieces();

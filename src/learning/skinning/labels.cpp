@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "learning/skinning/simplex_qp.h"
 
 namespace vitruvia::skinning {
 namespace {
@@ -37,6 +38,26 @@ std::string LabelsProblem(std::span<const std::uint8_t> labels, std::size_t vert
   for (std::size_t v = 0; v < labels.size(); ++v) {
     if (labels[v] >= bone_count) {
       return fmt::format("vertex {}: label {}, but there are {} bones", v, labels[v], bone_count);
+    }
+  }
+  return "";
+}
+
+std::string CandidatesProblem(const BoneGraph& candidates) {
+  for (std::size_t label = 0; label < candidates.size(); ++label) {
+    const std::vector<std::uint8_t>& bones = candidates[label];
+    for (const std::uint8_t bone : bones) {
+      if (bone >= candidates.size()) {
+        return fmt::format("label {} may follow bone {}, but there are {} bones", label, bone,
+                           candidates.size());
+      }
+    }
+    if (std::find(bones.begin(), bones.end(), label) == bones.end()) {
+      return fmt::format("bone {} is no candidate of its own label", label);
+    }
+    if (bones.size() > kMaxCandidates) {
+      return fmt::format("label {} may follow {} bones, expected {} or fewer", label, bones.size(),
+                         kMaxCandidates);
     }
   }
   return "";
@@ -93,6 +114,13 @@ BoneGraph BonesWithin(const BoneGraph& neighbours, int steps, int most) {
     if (reached.size() > static_cast<std::size_t>(most)) reached.resize(most);
   }
   return within;
+}
+
+BoneGraph CandidateBones(std::span<const std::uint8_t> labels,
+                         const std::vector<Triangle>& triangles, int bone_count,
+                         const Settings& settings) {
+  return BonesWithin(NeighboursOnSurface(labels, triangles, bone_count, settings.neighbours),
+                     settings.neighbour_steps, kMaxCandidates);
 }
 
 }  // namespace vitruvia::skinning

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "body/skinning.h"
+#include "learning/skinning/settings.h"
 
 namespace vitruvia::skinning {
 
@@ -16,6 +17,9 @@ using BoneGraph = std::vector<std::vector<std::uint8_t>>;  // per bone its neigh
 // "" if labels are valid for that many vertices and bones, otherwise what is wrong.
 std::string LabelsProblem(std::span<const std::uint8_t> labels, std::size_t vertex_count,
                           int bone_count);
+
+// "" if every label may follow its own bone and no bone that is not there.
+std::string CandidatesProblem(const BoneGraph& candidates);
 
 Labels HeaviestBones(const SkinWeights& weights);
 
@@ -28,5 +32,10 @@ BoneGraph NeighboursOnSurface(std::span<const std::uint8_t> labels,
 // Per bone, itself and those within that many steps of the graph, nearest first, at most `most`
 // (≥ 1); among equally near ones those of lower index.
 BoneGraph BonesWithin(const BoneGraph& neighbours, int steps, int most);
+
+// The two together, as settings say: which bones a vertex of each label may follow.
+BoneGraph CandidateBones(std::span<const std::uint8_t> labels,
+                         const std::vector<Triangle>& triangles, int bone_count,
+                         const Settings& settings);
 
 }  // namespace vitruvia::skinning

@@ -8,7 +8,7 @@
 
 namespace vitruvia::skinning {
 
-inline constexpr int kMaxCandidates = 16;  // bones that one vertex may choose from
+inline constexpr int kMaxCandidates = 20;  // bones that one vertex may choose from
 
 // wᵀ G w − 2 cᵀ w over w ≥ 0, Σ w = 1. G is symmetric and positive semidefinite; only the first
 // `size` rows and columns count.
