@@ -1,7 +1,9 @@
 #include "experiments/commands.h"
 
 #include <algorithm>
+#include <array>
 #include <csignal>
+#include <limits>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -11,7 +13,10 @@
 #include "core/files.h"
 #include "core/progress.h"
 #include "experiments/experiment_config.h"
+#include "experiments/experiment_kinds.h"
 #include "experiments/explain.h"
+#include "experiments/learn_command.h"
+#include "experiments/learn_shape_command.h"
 #include "experiments/runner.h"
 #include "experiments/scan_command.h"
 #include "experiments/score.h"
@@ -65,36 +70,52 @@ void Verify(const fs::path& folder) {
 void Track(const fs::path& method_file, const fs::path& sequence_folder, const fs::path& output) {
   const MethodConfig method = ReadMethodConfig(ReadJsonFile(method_file), {method_file, ""});
   const SequenceReader sequence(sequence_folder);
-  TrackSequence(sequence, method, output);
+  TrackSequence(sequence, method, sequence.subject(), output);
   RunRecord record;
   ScoreRun(sequence, EstimateReader(output), record);
   fmt::print("{}\n", record.summary.dump(2));
 }
 
-void PrintRows(const fs::path& folder, const ExperimentPlan& plan) {
-  fmt::print("{:<52} {:>7} {:>7} {:>10} {:>10} {:>9} {:>8}\n", "run", "frames", "failed",
-             "mean/diag", "max/diag", "<10 cm", "ms");
-  for (const RunPlan& run : plan.runs) {
-    if (!fs::is_regular_file(folder / run.run_id / "record.json")) continue;
-    const Json row = ReadRunRecord(folder, run.run_id).summary;
-    fmt::print("{:<52} {:>7} {:>7} {:>10.6f} {:>10.5f} {:>8.1f}% {:>8.2f}\n", run.run_id,
-               row["frames"].get<int>(), row["frames_failed"].get<int>(),
-               row["l2_mean_of_diagonal"].get<double>(), row["l2_max_of_diagonal"].get<double>(),
-               100.0 * row["joints_within_10cm"].get<double>(),
-               row["frame_ms_median"].get<double>());
+// The columns that a person wants to see first, of whatever kind of experiment.
+void PrintRows(const fs::path& folder, const std::vector<std::string>& run_ids) {
+  constexpr std::array kColumns = {
+      "frames_failed",      "l2_mean_of_diagonal", "l2_max_of_diagonal",
+      "joints_within_10cm", "frame_ms_median",     "surface_mean_m",
+      "surface_max_m",      "height_error_m",      "weight_error_kg"};
+  std::vector<Json> rows;
+  for (const std::string& run_id : run_ids) {
+    if (!fs::is_regular_file(folder / run_id / "record.json")) continue;
+    rows.push_back(ReadRunRecord(folder, run_id).summary);
+  }
+  std::vector<std::string> columns;
+  for (const char* column : kColumns) {
+    if (std::any_of(rows.begin(), rows.end(),
+                    [column](const Json& row) { return row.contains(column); })) {
+      columns.emplace_back(column);
+    }
+  }
+  fmt::print("{:<52}", "run");
+  for (const std::string& column : columns) fmt::print(" {:>20}", column);
+  fmt::print("\n");
+  for (const Json& row : rows) {
+    fmt::print("{:<52}", row["run_id"].get<std::string>());
+    for (const std::string& column : columns)
+      fmt::print(" {:>20.6g}", row.value(column, std::numeric_limits<double>::quiet_NaN()));
+    fmt::print("\n");
   }
 }
 
 void Run(const fs::path& experiment_file, const fs::path& output) {
-  const ExperimentPlan plan = PlanExperiment(experiment_file);
-  const fs::path folder = output.empty() ? fs::path("out") / plan.record.name : output;
-  const fs::path sequences = output.empty() ? fs::path("out") / "sequences" : folder / "sequences";
-  const ExperimentOutcome outcome = RunExperiment(plan, folder, sequences);
-  PrintRows(folder, plan);
+  const fs::path folder = output.empty() ? fs::path("out") / ConfigName(experiment_file) : output;
+  const fs::path shared = output.empty() ? fs::path("out") : folder;
+  const Experiment experiment =
+      PlanAnyExperiment(experiment_file, folder, {shared / "sequences", shared / "learned"});
+  const ExperimentOutcome outcome = CarryOutRuns(experiment.record, experiment.runs, folder);
+  PrintRows(folder, experiment.record.run_ids);
   fmt::print("{} runs done, {} kept, {} failed\n", outcome.done, outcome.kept, outcome.failed);
   fmt::print("report: {}\n", WriteReport(folder).string());
   if (outcome.failed > 0)
-    throw RunError(fmt::format("{} of {} runs failed", outcome.failed, plan.runs.size()));
+    throw RunError(fmt::format("{} of {} runs failed", outcome.failed, experiment.runs.size()));
 }
 
 struct Arguments {
@@ -137,7 +158,9 @@ void AddCommands(CLI::App& app, Arguments& a) {
   report->add_option("DIR", a.reported, "the experiment's folder")->required();
   report->callback([&a] { fmt::print("report: {}\n", WriteReport(a.reported).string()); });
 
+  AddLearnCommand(app);
   AddScanCommand(app);
+  AddFitCommand(app);
 
   CLI::App* explain =
       app.add_subcommand("explain", "Say what a setting means; without KEY list all");
@@ -158,7 +181,8 @@ int RunCommandLine(int argc, const char* const* argv) {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {
       throw ConfigError(
-          "expected a command: list, synth, track, run, report, scan or explain (--help)");
+          "expected a command: list, synth, learn, scan, fit, track, run, report or explain "
+          "(--help)");
     }
     return static_cast<int>(ExitCode::kSuccess);
   } catch (const CLI::Success& success) {  // --help, --version

@@ -31,6 +31,10 @@ RunPlan PlanRun(const fs::path& scene_file, const fs::path& method_file,
       ReadMethodConfig(Merged(ReadJsonFile(method_file), variant.method), {method_file, ""});
   run.resolved = {{"scene", WriteSettings(run.scene_settings)},
                   {"method", {{"method", run.method.method}, {"settings", run.method.settings}}}};
+  if (!variant.subject.empty()) {
+    run.subject = ReadSubjectRecipe(variant.subject);
+    run.resolved["subject"] = ResolvedRecipe(*run.subject);
+  }
   const std::string hash = Hash64().Add(run.resolved.dump()).Hex().substr(0, 8);
   run.run_id = fmt::format("{}.{}.{}.s{}.{}", run.variant, run.scene, run.method_name, seed, hash);
   return run;
@@ -44,6 +48,9 @@ void VariantSettings::Describe(Fields& f) {
   f.Text("description", description, {.meaning = "what the variant is for"});
   f.FreeJson("scene", scene, {.meaning = "overrides of the scene file (JSON merge patch)"});
   f.FreeJson("method", method, {.meaning = "overrides of the method file (JSON merge patch)"});
+  f.File("subject", subject,
+         {.meaning = "subject file: the tracker's subject is scanned and fitted as it says; the "
+                     "scene's own template without"});
 }
 
 std::string VariantSettings::Problem() const {
@@ -63,6 +70,7 @@ void ExpectationSettings::Describe(Fields& f) {
 }
 
 void ExperimentSettings::Describe(Fields& f) {
+  f.Text("kind", kind, {.meaning = "tracking"});
   f.Text("title", title, {.meaning = "title of the report", .required = true});
   f.Text("description", description,
          {.meaning = "what the experiment shows, for the report's head"});

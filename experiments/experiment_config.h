@@ -3,10 +3,12 @@
 
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/json_settings.h"
+#include "experiments/fitted_subject.h"
 #include "methods/registry.h"
 #include "records/run_record.h"
 #include "synth/scene/scene.h"
@@ -19,6 +21,7 @@ struct VariantSettings {
   std::string description;
   Json scene = Json::object();
   Json method = Json::object();
+  std::filesystem::path subject;  // a recipe (fitted_subject.h); "": the scene's own template
 
   void Describe(Fields& fields);
   std::string Problem() const;
@@ -34,6 +37,7 @@ struct ExpectationSettings {
 };
 
 struct ExperimentSettings {
+  std::string kind = "tracking";
   std::string title, description;
   std::vector<std::filesystem::path> scenes, methods;
   std::vector<VariantSettings> variants;  // none: one without overrides, named "default"
@@ -52,7 +56,8 @@ struct RunPlan {
   int seed = 1;
   SceneSettings scene_settings;
   MethodConfig method;
-  Json resolved;  // { "scene": …, "method": … }
+  std::optional<SubjectRecipe> subject;
+  Json resolved;  // { "scene": …, "method": …, and with a recipe "subject": … }
 };
 
 struct ExperimentPlan {

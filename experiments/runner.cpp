@@ -3,24 +3,18 @@
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "core/hash.h"
 #include "core/progress.h"
 #include "core/timer.h"
+#include "experiments/kept_work.h"
 #include "experiments/score.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
-// What a stored result depends on. Two equal keys mean that running again would change nothing but
-// the clock.
-std::string ResultKey(const Json& resolved, const SceneSettings& scene) {
-  Hash64 hash;
-  hash.Add(GetBuildInfo().build_id).Add(resolved.dump());
-  for (const fs::path& file : {scene.motion.file, scene.motion.skeleton}) {
-    if (fs::is_regular_file(file)) hash.AddFile(file);
-  }
-  return hash.Hex();
+std::string ResultKey(const RunPlan& run) {
+  return WorkKey(run.resolved,
+                 {run.scene_settings.motion.file, run.scene_settings.motion.skeleton});
 }
 
 // Reads a small marker file; "" where there is none.
@@ -28,15 +22,18 @@ std::string MarkerOf(const fs::path& file) {
   return fs::is_regular_file(file) ? ReadWholeFile(file) : "";
 }
 
-RunRecord CarryOut(const RunPlan& run, const ExperimentPlan& plan, const fs::path& folder,
-                   const fs::path& sequences) {
-  const fs::path sequence_folder = ObtainSequence(run.scene, run.scene_settings, sequences);
+RunRecord CarryOut(const RunPlan& run, const std::string& experiment, const fs::path& folder,
+                   const WorkFolders& work) {
+  const fs::path sequence_folder = ObtainSequence(run.scene, run.scene_settings, work.sequences);
   const SequenceReader sequence(sequence_folder);
-  TrackSequence(sequence, run.method, folder / run.run_id / "estimate");
+  const BodyModel subject =
+      run.subject ? ObtainFittedSubject(*run.subject, run.scene_settings, work.learned)
+                  : sequence.subject();
+  TrackSequence(sequence, run.method, subject, folder / run.run_id / "estimate");
 
   RunRecord record;
   record.run_id = run.run_id;
-  record.experiment = plan.record.name;
+  record.experiment = experiment;
   record.variant = run.variant;
   record.scene = run.scene;
   record.method = run.method_name;
@@ -65,12 +62,11 @@ std::string LogOf(const fs::path& estimate_folder) {
   return log;
 }
 
-void WriteSummary(const ExperimentPlan& plan, const ExperimentRecord& experiment,
-                  const fs::path& folder) {
+void WriteSummary(const ExperimentRecord& experiment, const fs::path& folder) {
   Json rows = Json::array();
-  for (const RunPlan& run : plan.runs) {
-    if (experiment.failed_runs.contains(run.run_id)) continue;
-    rows.push_back(ReadRunRecord(folder, run.run_id).summary);
+  for (const std::string& run_id : experiment.run_ids) {
+    if (experiment.failed_runs.contains(run_id)) continue;
+    rows.push_back(ReadRunRecord(folder, run_id).summary);
   }
   const Json failed = experiment.failed_runs;
   WriteWholeFile(
@@ -82,12 +78,12 @@ void WriteSummary(const ExperimentPlan& plan, const ExperimentRecord& experiment
 }  // namespace
 
 void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
-                   const fs::path& folder) {
+                   const BodyModel& subject, const fs::path& folder) {
   const SequenceInfo& info = sequence.info();
   const std::unique_ptr<Tracker> tracker = MakeTracker(method);
-  EstimateWriter writer(folder, sequence.subject().rest);
+  EstimateWriter writer(folder, subject.rest);
   Progress progress("track " + method.method, info.frames);
-  tracker->Start(sequence.subject(), info.camera);
+  tracker->Start(subject, info.camera);
   for (int i = 0; i < info.frames; ++i) {
     const DepthFrame frame{i, i / info.fps, sequence.ReadDepth(i)};
     const Stopwatch watch;
@@ -100,37 +96,46 @@ void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
 
 fs::path ObtainSequence(const std::string& name, const SceneSettings& scene,
                         const fs::path& sequences) {
-  const Json resolved = WriteSettings(scene);
-  const fs::path folder =
-      sequences / fmt::format("{}-{}", name, Hash64().Add(resolved.dump()).Hex());
-  const fs::path marker = folder.string() + ".key";
-  const std::string key = ResultKey(resolved, scene);
-  if (fs::is_directory(folder) && MarkerOf(marker) == key) return folder;
-  MakeFolder(sequences);
-  SynthesizeSequence(scene, folder);
-  WriteWholeFile(marker, key);
-  return folder;
+  const KeptFolder kept(sequences, name, WriteSettings(scene),
+                        {scene.motion.file, scene.motion.skeleton});
+  if (kept.complete()) return kept.path();
+  SynthesizeSequence(scene, kept.path());
+  kept.MarkComplete();
+  return kept.path();
 }
 
-ExperimentOutcome RunExperiment(const ExperimentPlan& plan, const fs::path& folder,
-                                const fs::path& sequences) {
+std::vector<PlannedRun> TrackingRuns(const ExperimentPlan& plan, const fs::path& folder,
+                                     const WorkFolders& work) {
+  std::vector<PlannedRun> runs;
+  for (const RunPlan& run : plan.runs) {
+    runs.push_back({run.run_id, ResultKey(run),
+                    [&run, name = plan.record.name, folder, work](const fs::path& run_folder) {
+                      RunRecord record = CarryOut(run, name, folder, work);
+                      WriteWholeFile(run_folder / "log", LogOf(run_folder / "estimate"));
+                      return record;
+                    }});
+  }
+  return runs;
+}
+
+ExperimentOutcome CarryOutRuns(const ExperimentRecord& planned, const std::vector<PlannedRun>& runs,
+                               const fs::path& folder) {
   ExperimentOutcome outcome;
-  ExperimentRecord experiment = plan.record;
+  ExperimentRecord experiment = planned;
   MakeFolder(folder);
-  for (std::size_t i = 0; i < plan.runs.size(); ++i) {
-    const RunPlan& run = plan.runs[i];
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const PlannedRun& run = runs[i];
     const fs::path run_folder = folder / run.run_id;
-    const std::string done = "done " + ResultKey(run.resolved, run.scene_settings) + "\n";
+    const std::string done = "done " + run.key + "\n";
     if (MarkerOf(run_folder / "status") == done) {
       ++outcome.kept;
       continue;
     }
     MakeFolder(run_folder);
     fs::remove(run_folder / "status");
-    fmt::print(stderr, "run {}/{}: {}\n", i + 1, plan.runs.size(), run.run_id);
+    fmt::print(stderr, "run {}/{}: {}\n", i + 1, runs.size(), run.run_id);
     try {
-      WriteRunRecord(folder, CarryOut(run, plan, folder, sequences));
-      WriteWholeFile(run_folder / "log", LogOf(run_folder / "estimate"));
+      WriteRunRecord(folder, run.carry_out(run_folder));
       WriteWholeFile(run_folder / "status", done);
       ++outcome.done;
     } catch (const std::exception& error) {
@@ -142,7 +147,7 @@ ExperimentOutcome RunExperiment(const ExperimentPlan& plan, const fs::path& fold
     }
   }
   WriteExperimentRecord(folder, experiment);
-  WriteSummary(plan, experiment, folder);
+  WriteSummary(experiment, folder);
   return outcome;
 }
 

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
 
 #include "experiments/experiment_config.h"
 #include "records/estimate.h"
@@ -9,10 +12,16 @@
 
 namespace vitruvia {
 
-// Tracks a whole sequence; the clock runs round TrackFrame only. The estimate appears at `folder`
-// whole or not at all.
+// Where work is kept that several runs share.
+struct WorkFolders {
+  std::filesystem::path sequences;
+  std::filesystem::path learned;  // models and fitted subjects
+};
+
+// Tracks a whole sequence with that subject; the clock runs round TrackFrame only. The estimate
+// appears at `folder` whole or not at all.
 void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
-                   const std::filesystem::path& folder);
+                   const BodyModel& subject, const std::filesystem::path& folder);
 
 // The sequence of a scene below `sequences`, made unless the very same one is there already (same
 // settings, same input files, same build).
@@ -25,9 +34,22 @@ struct ExperimentOutcome {
   int failed = 0;  // runs that ended in an error, which the experiment's record names
 };
 
-// Runs whatever is not yet done, one run after the other, and writes summary.json and the
+// A run of any kind of experiment.
+struct PlannedRun {
+  std::string run_id;
+  std::string key;  // WorkKey() of all that its result depends on
+  // Does the work; writes what it likes into its own folder.
+  std::function<RunRecord(const std::filesystem::path& run_folder)> carry_out;
+};
+
+// Carries out whatever is not yet done, one run after the other, and writes summary.json and the
 // experiment's record (records/run_record.h). A run that fails is recorded and the others go on.
-ExperimentOutcome RunExperiment(const ExperimentPlan& plan, const std::filesystem::path& folder,
-                                const std::filesystem::path& sequences);
+ExperimentOutcome CarryOutRuns(const ExperimentRecord& experiment,
+                               const std::vector<PlannedRun>& runs,
+                               const std::filesystem::path& folder);
+
+// The runs of a tracking experiment.
+std::vector<PlannedRun> TrackingRuns(const ExperimentPlan& plan,
+                                     const std::filesystem::path& folder, const WorkFolders& work);
 
 }  // namespace vitruvia

@@ -57,8 +57,7 @@ CameraPathError PathError(const std::vector<FusedFrame>& frames,
   return {Mean(turned_deg), Maximum(turned_deg), Mean(moved_m), Maximum(moved_m)};
 }
 
-ScanResult ScanScene(const ScanSettings& settings) {
-  ScanRecorder recorder(settings.scene);
+ScanResult ScanScene(const ScanSettings& settings, ScanRecorder recorder) {
   ScanFrame first = recorder.Render(0);
   ScanFusion fusion(settings.fusion, settings.scene.camera, Inverse(first.camera_from_subject));
   ScanResult result;
@@ -202,7 +201,12 @@ DistanceSummary SurfaceDistance(const TriangleMesh& from, const TriangleMesh& to
 }
 
 ScanResult Scan(const ScanSettings& settings) {
-  return settings.source == ScanSource::kScene ? ScanScene(settings) : ScanSequence(settings);
+  return settings.source == ScanSource::kScene ? ScanScene(settings, ScanRecorder(settings.scene))
+                                               : ScanSequence(settings);
+}
+
+ScanResult ScanPerson(const ScanSettings& settings, const BodyModel& person) {
+  return ScanScene(settings, ScanRecorder(settings.scene, person));
 }
 
 Json ScanRecord(const ScanSettings& settings, const ScanResult& result) {

@@ -69,6 +69,8 @@ struct ScanResult {
 // The subject frame is known from the first camera's place relative to the floor: the scene's, or
 // first_view. Alignment afterwards is relative to it.
 ScanResult Scan(const ScanSettings& settings);
+// The scene's scan of that person instead of the scene's own.
+ScanResult ScanPerson(const ScanSettings& settings, const BodyModel& person);
 
 // What scan.json holds.
 Json ScanRecord(const ScanSettings& settings, const ScanResult& result);

@@ -1,5 +1,6 @@
 #include "reports/html_page.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -81,7 +82,8 @@ std::string PaperSection(const ReportedExperiment& experiment) {
 
 std::string PlotSection(const std::vector<DrawnFigure>& figures) {
   std::string html = "<section id=\"plots\"><h2>Plots</h2>\n";
-  if (figures.empty()) html += "<p>No run has finished, so there is nothing to plot.</p>\n";
+  if (figures.empty())
+    html += "<p>No run with frames has finished, so there is nothing to plot.</p>\n";
   for (const DrawnFigure& figure : figures) {
     // An SVG inside a page needs no XML header and gets its description from the page.
     const std::size_t at = figure.svg.find("<svg");
@@ -107,9 +109,12 @@ std::string ColorBar(const std::string& label, Color (*color_of)(double),
 }
 
 std::string PictureLegend(const RunPictures& run) {
-  return "<div class=\"bars\">" +
-         ColorBar("depth (m)", DepthColor,
-                  {fmt::format("{:.1f}", run.nearest_m), fmt::format("{:.1f}", run.farthest_m)}) +
+  const std::string depth =
+      run.farthest_m == 0.0
+          ? ""
+          : ColorBar("depth (m)", DepthColor,
+                     {fmt::format("{:.1f}", run.nearest_m), fmt::format("{:.1f}", run.farthest_m)});
+  return "<div class=\"bars\">" + depth +
          ColorBar("error (mm)", ErrorColor,
                   {"0", fmt::format("{:g}", 500.0 * run.error_scale_m),
                    fmt::format("≥ {:g}", 1000.0 * run.error_scale_m)}) +
@@ -123,19 +128,18 @@ std::string PictureLegend(const RunPictures& run) {
 std::string StripHtml(const RunPictures& run, const PictureStrip& strip) {
   std::string cells;
   for (std::size_t i = 0; i < strip.pictures.size(); ++i) {
-    const std::string& title = PictureTitles()[i];
+    const std::string& title = run.titles[i];
     cells += fmt::format(
-        "<figure><img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}, frame {} of {}\">"
+        "<figure><img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}, {} of {}\">"
         "<figcaption>{}</figcaption></figure>\n",
         DataUri(EncodePng(strip.pictures[i])), kPictureSize, kPictureSize, Escaped(title),
-        strip.frame, Escaped(run.run_id), Escaped(title));
+        Escaped(strip.label), Escaped(run.run_id), Escaped(title));
   }
+  const std::string sublabel = strip.sublabel.empty() ? "" : strip.sublabel + " · ";
   return fmt::format(
-      "<div class=\"strip\"><h4>Frame {} <span class=\"soft\">· {:.2f} s · {} · mean error {:.1f} "
-      "mm, "
-      "maximum {:.1f} mm</span></h4><div class=\"cells\">\n{}</div></div>\n",
-      strip.frame, strip.time_s, Escaped(strip.outcome), 1e3 * strip.error_mean_m,
-      1e3 * strip.error_max_m, cells);
+      "<div class=\"strip\"><h4>{} <span class=\"soft\">· {}{}</span></h4><div "
+      "class=\"cells\">\n{}</div></div>\n",
+      Escaped(strip.label), Escaped(sublabel), Escaped(strip.note), cells);
 }
 
 std::string PictureSection(const std::vector<RunPictures>& runs) {
@@ -181,13 +185,17 @@ std::string StepRows(const RunRecord& run) {
 }
 
 std::string StepSection(const ReportedExperiment& experiment) {
+  const auto runs = experiment.finished();
+  const bool timed = std::any_of(runs.begin(), runs.end(),
+                                 [](const RunRecord* run) { return !run->steps.empty(); });
+  if (!timed) return "";
   std::string html =
       "<section id=\"steps\"><h2>Time per step</h2>\n<p>Milliseconds. Ours are per frame, summed "
       "over the frame’s iterations. Paper A’s table 1 was measured on one 3.4 GHz CPU; its steps 5 "
       "to "
       "11 are printed per iteration and stand here times its 3.5 iterations a frame.</p>\n";
   bool first = true;
-  for (const RunRecord* run : experiment.finished()) {
+  for (const RunRecord* run : runs) {
     html += fmt::format(
         "<details{}><summary class=\"run\">{}</summary><div class=\"scroll\"><table><thead><tr>"
         "<th>step</th><th class=\"n\">paper, per iteration</th><th class=\"n\">paper, per "

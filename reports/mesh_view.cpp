@@ -142,4 +142,14 @@ ColorImage MeshView::Draw(const PinholeCamera& camera, const PictureWindow& part
   return WithoutBackground(scene_->window.DrawAndRead());
 }
 
+ColorImage OnWhite(ColorImage image) {
+  for (ColorPixel& pixel : image.pixels()) {
+    for (int c = 0; c < 3; ++c) {
+      pixel[c] = static_cast<std::uint8_t>((pixel[c] * pixel[3] + 255 * (255 - pixel[3])) / 255);
+    }
+    pixel[3] = 255;
+  }
+  return image;
+}
+
 }  // namespace vitruvia

@@ -22,6 +22,9 @@ struct PictureWindow {
   double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
 };
 
+// A picture with transparent parts laid on white paper.
+ColorImage OnWhite(ColorImage image);
+
 class MeshView {
  public:
   MeshView(int width, int height);  // of the pictures, pixels

@@ -10,8 +10,8 @@ namespace {
 constexpr int kCell = 210, kCellGap = 6, kMarginLeft = 78, kHeader = 50, kFooter = 70;
 constexpr int kBarWidth = 3 * kCell / 2, kBarHeight = 12, kBarSteps = 60;
 
-int SheetWidth() {
-  return kMarginLeft + static_cast<int>(PictureTitles().size()) * (kCell + kCellGap);
+int SheetWidth(const RunPictures& run) {
+  return kMarginLeft + static_cast<int>(run.titles.size()) * (kCell + kCellGap);
 }
 
 void DrawColorBar(Canvas& canvas, Point top_left, Color (*color_of)(double),
@@ -31,9 +31,9 @@ void DrawColorBar(Canvas& canvas, Point top_left, Color (*color_of)(double),
 }
 
 // Titles in two lines: what is shown, and from where.
-void DrawTitles(Canvas& canvas) {
-  for (std::size_t i = 0; i < PictureTitles().size(); ++i) {
-    const std::string& title = PictureTitles()[i];
+void DrawTitles(Canvas& canvas, const RunPictures& run) {
+  for (std::size_t i = 0; i < run.titles.size(); ++i) {
+    const std::string& title = run.titles[i];
     const std::size_t comma = title.find(", ");
     const double x = kMarginLeft + static_cast<double>(i) * (kCell + kCellGap) + 0.5 * kCell;
     canvas.Text({x, 16.0}, title.substr(0, comma),
@@ -49,27 +49,28 @@ void WritePictureSheet(DrawingWriter& writer, const std::filesystem::path& stem,
                        const RunPictures& run) {
   const int rows = static_cast<int>(run.strips.size());
   const int height = kHeader + rows * (kCell + kCellGap) + kFooter;
-  writer.Write(stem, SheetWidth(), height, [&](Canvas& canvas) {
-    DrawTitles(canvas);
+  writer.Write(stem, SheetWidth(run), height, [&](Canvas& canvas) {
+    DrawTitles(canvas, run);
     for (int row = 0; row < rows; ++row) {
       const PictureStrip& strip = run.strips[static_cast<std::size_t>(row)];
       const double top = kHeader + row * (kCell + kCellGap);
-      canvas.Text({8.0, top + 0.5 * kCell - 9.0}, fmt::format("frame {}", strip.frame),
-                  {.size = 12.0, .bold = true});
-      canvas.Text({8.0, top + 0.5 * kCell + 9.0}, fmt::format("{:.2f} s", strip.time_s),
-                  {.size = 12.0});
+      canvas.Text({8.0, top + 0.5 * kCell - 9.0}, strip.label, {.size = 12.0, .bold = true});
+      canvas.Text({8.0, top + 0.5 * kCell + 9.0}, strip.sublabel, {.size = 12.0});
       for (std::size_t i = 0; i < strip.pictures.size(); ++i) {
         canvas.Picture({kMarginLeft + static_cast<double>(i) * (kCell + kCellGap), top}, kCell,
                        kCell, strip.pictures[i]);
       }
     }
     const double bar_top = height - kFooter + 28.0;
-    DrawColorBar(canvas, {kMarginLeft + 10.0, bar_top}, DepthColor, "depth (m)",
-                 {fmt::format("{:.1f}", run.nearest_m),
-                  fmt::format("{:.2f}", 0.5 * (run.nearest_m + run.farthest_m)),
-                  fmt::format("{:.1f}", run.farthest_m)});
-    DrawColorBar(canvas, {kMarginLeft + 5.0 * (kCell + kCellGap) + 10.0, bar_top}, ErrorColor,
-                 "error (mm)",
+    if (run.farthest_m > 0.0) {
+      DrawColorBar(canvas, {kMarginLeft + 10.0, bar_top}, DepthColor, "depth (m)",
+                   {fmt::format("{:.1f}", run.nearest_m),
+                    fmt::format("{:.2f}", 0.5 * (run.nearest_m + run.farthest_m)),
+                    fmt::format("{:.1f}", run.farthest_m)});
+    }
+    const double error_column = static_cast<double>(run.titles.size()) - 2.0;
+    DrawColorBar(canvas, {kMarginLeft + error_column * (kCell + kCellGap) + 10.0, bar_top},
+                 ErrorColor, "error (mm)",
                  {"0", fmt::format("{:g}", 500.0 * run.error_scale_m),
                   fmt::format("≥ {:g}", 1000.0 * run.error_scale_m)});
   });

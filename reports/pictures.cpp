@@ -12,9 +12,11 @@
 #include "core/progress.h"
 #include "metrics/vertex_error.h"
 #include "records/estimate.h"
+#include "records/surface_strips.h"
 #include "reports/axis.h"
 #include "reports/color_maps.h"
 #include "reports/mesh_view.h"
+#include "reports/surface_pictures.h"
 #include "sequence/sequence.h"
 
 namespace vitruvia {
@@ -114,16 +116,6 @@ std::vector<Vector3f> Turned(const std::vector<Vector3f>& points, const Vector3f
   return turned;
 }
 
-ColorImage OnWhite(ColorImage image) {
-  for (ColorPixel& pixel : image.pixels()) {
-    for (int c = 0; c < 3; ++c) {
-      pixel[c] = static_cast<std::uint8_t>((pixel[c] * pixel[3] + 255 * (255 - pixel[3])) / 255);
-    }
-    pixel[3] = 255;
-  }
-  return image;
-}
-
 ColorImage DepthPicture(const DepthImage& depth, const PictureWindow& part, double nearest_m,
                         double farthest_m) {
   ColorImage picture(kPictureSize, kPictureSize);
@@ -184,14 +176,17 @@ class StripPainter {
 
   PictureStrip Paint(const FrameErrors& frame) {
     const FrameEstimate& tracked = source_.estimate.frames()[static_cast<std::size_t>(frame.frame)];
-    PictureStrip strip{
-        frame.frame, frame.frame / source_.sequence.info().fps, Name(tracked.outcome), 0.0, 0.0,
-        {}};
-    if (!tracked.message.empty()) strip.outcome += ": " + tracked.message;
+    PictureStrip strip;
+    strip.frame = frame.frame;
+    strip.label = fmt::format("frame {}", frame.frame);
+    strip.sublabel = fmt::format("{:.2f} s", frame.frame / source_.sequence.info().fps);
     for (const double error_m : frame.errors_m) {
       strip.error_mean_m += error_m / static_cast<double>(frame.errors_m.size());
       strip.error_max_m = std::max(strip.error_max_m, error_m);
     }
+    strip.note = fmt::format("{}{}{} · mean error {:.1f} mm, maximum {:.1f} mm",
+                             Name(tracked.outcome), tracked.message.empty() ? "" : ": ",
+                             tracked.message, 1e3 * strip.error_mean_m, 1e3 * strip.error_max_m);
     PaintPictures(frame, strip.pictures);
     return strip;
   }
@@ -299,16 +294,24 @@ std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment) {
   for (const RunRecord* run : experiment.finished()) {
     RunPictures pictures;
     pictures.run_id = run->run_id;
-    sources.push_back(Open(experiment, *run, pictures.problem));
-    if (sources.back()) strips += static_cast<int>(sources.back()->errors.size());
+    if (HasSurfaceStrips(experiment.folder / run->run_id)) {
+      sources.push_back(nullptr);
+    } else {
+      pictures.titles = PictureTitles();
+      sources.push_back(Open(experiment, *run, pictures.problem));
+      if (sources.back()) strips += static_cast<int>(sources.back()->errors.size());
+    }
     all.push_back(std::move(pictures));
   }
   const double error_scale_m = ErrorScale(sources);
-  if (strips == 0) return all;
   MeshView view(kPictureSize, kPictureSize);
   Progress progress("pictures", strips);
   for (std::size_t r = 0; r < all.size(); ++r) {
     if (!all[r].problem.empty()) continue;
+    if (sources[r] == nullptr) {
+      DrawSurfaceStrips(experiment.folder / all[r].run_id, view, all[r]);
+      continue;
+    }
     all[r].error_scale_m = error_scale_m;
     StripPainter painter(*sources[r], view, all[r]);
     for (const FrameErrors& frame : sources[r]->errors) {

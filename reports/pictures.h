@@ -13,26 +13,29 @@ namespace vitruvia {
 inline constexpr int kPictureSize = 300;  // pixels, width and height of each picture
 
 struct PictureStrip {
+  std::string label, sublabel;  // "frame 90", "3.00 s"
+  std::string note;             // how a tracker ended, with its message; errors
   int frame = 0;
-  double time_s = 0.0;
-  std::string outcome;  // the tracker's, with its message if it has one
   double error_mean_m = 0.0, error_max_m = 0.0;
-  std::vector<ColorImage> pictures;  // in the order of PictureTitles()
+  std::vector<ColorImage> pictures;  // in the order of the run's titles
 };
 
 struct RunPictures {
   std::string run_id;
   std::string problem;                       // why there are none; "" when all is well
-  double nearest_m = 0.0, farthest_m = 0.0;  // ends of the depth colours
+  std::vector<std::string> titles;           // of a strip's pictures
+  double nearest_m = 0.0, farthest_m = 0.0;  // ends of the depth colours; both 0: no depth shown
   double error_scale_m = 0.0;                // end of the error colours
   std::vector<PictureStrip> strips;
 };
 
+// Of a tracking run's strips.
 const std::vector<std::string>& PictureTitles();
 
-// One entry per finished run, at the experiment's picture frames that the run has. The error of a
-// vertex is its distance to the true point that it stands for, which is the closest one in the rest
-// pose that both surfaces share. All runs share one scale of errors, so that their colours compare.
+// One entry per finished run: at the experiment's picture frames that the run has, or, of a run
+// that left surfaces instead of frames (records/surface_strips.h), those. The error of a vertex is
+// its distance to the true point that it stands for, which is the closest one in the rest pose that
+// both surfaces share. All runs share one scale of errors, so that their colours compare.
 std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment);
 
 // Writes all strips of a run with their titles and colour bars to `stem`.png and `stem`.svg.

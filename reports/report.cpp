@@ -10,6 +10,8 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr const char* kFiguresMark = "README";
+
 std::vector<DrawnFigure> DrawFigures(DrawingWriter& writer, const std::vector<Figure>& figures,
                                      const fs::path& folder) {
   std::vector<DrawnFigure> drawn;
@@ -37,7 +39,9 @@ fs::path WriteReport(const fs::path& experiment_folder) {
   const ReportedExperiment experiment = ReadExperiment(experiment_folder);
 
   DrawingWriter writer;
-  StagedFolder figures_folder(experiment_folder / "figures", std::string(kSpeedFigure) + ".svg");
+  StagedFolder figures_folder(experiment_folder / "figures", kFiguresMark);
+  WriteWholeFile(figures_folder.path() / kFiguresMark,
+                 "Drawn by vitruvia; drawn anew with each report.\n");
   const std::vector<DrawnFigure> figures =
       DrawFigures(writer, MakeFigures(experiment), figures_folder.path());
   const std::vector<RunPictures> pictures = MakePictures(experiment);

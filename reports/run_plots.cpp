@@ -98,7 +98,7 @@ double LastFrame(const Runs& runs) {
 std::vector<Reference> Published(const ExperimentRecord& experiment, const std::string& metric) {
   std::vector<Reference> references;
   for (const Expectation& e : experiment.expectations) {
-    if (e.metric != metric) continue;
+    if (e.metric != metric || std::isnan(e.paper)) continue;
     const MetricName name = NameOfMetric(metric);
     references.push_back({fmt::format("{}: {:g}{}{}", e.source, e.paper * name.scale,
                                       name.unit.empty() ? "" : " ", name.unit),
@@ -178,7 +178,7 @@ Figure AccuracyFigure(const ExperimentRecord& /*experiment*/, const RunGroup& gr
   return figure;
 }
 
-Figure SpeedFigure(const ReportedExperiment& experiment) {
+Figure SpeedFigure(const ReportedExperiment& experiment, const Runs& runs) {
   Figure figure;
   figure.name = kSpeedFigure;
   figure.title = "Speed against error";
@@ -193,7 +193,6 @@ Figure SpeedFigure(const ReportedExperiment& experiment) {
               {},
               Published(experiment.record, "l2_mean_of_diagonal"),
               Published(experiment.record, "frame_ms_median")};
-  const Runs runs = experiment.finished();
   for (std::size_t r = 0; r < runs.size(); ++r) {
     Series point;
     point.name = runs[r]->run_id;
@@ -212,7 +211,9 @@ Figure SpeedFigure(const ReportedExperiment& experiment) {
 
 std::vector<Figure> MakeFigures(const ReportedExperiment& experiment) {
   std::vector<Figure> figures;
-  const std::vector<RunGroup> groups = Grouped(experiment.finished());
+  Runs runs = experiment.finished();  // those with frames
+  std::erase_if(runs, [](const RunRecord* run) { return run->frames.empty(); });
+  const std::vector<RunGroup> groups = Grouped(runs);
   if (groups.empty()) return figures;
   const auto add_for_each_group = [&](Figure (*make)(const ExperimentRecord&, const RunGroup&)) {
     for (const RunGroup& group : groups) {
@@ -225,7 +226,7 @@ std::vector<Figure> MakeFigures(const ReportedExperiment& experiment) {
     }
   };
   add_for_each_group(ErrorFigure);
-  figures.push_back(SpeedFigure(experiment));
+  figures.push_back(SpeedFigure(experiment, runs));
   add_for_each_group(AccuracyFigure);
   add_for_each_group(TimeFigure);
   return figures;

@@ -57,7 +57,7 @@ ComparedRun Compare(const ReportedRun& run, const Expectation& e, const MetricNa
   const double ours = NumberOrNone(*run.record, e.metric);
   if (std::isnan(ours)) return compared;
   compared.ours = Printed(ours, metric);
-  compared.difference = PrintedSigned(ours - e.paper, metric);
+  if (!std::isnan(e.paper)) compared.difference = PrintedSigned(ours - e.paper, metric);
   compared.verdict = std::isnan(e.at_most) ? Verdict::kNoTarget
                      : ours <= e.at_most   ? Verdict::kMet
                                            : Verdict::kMissed;
@@ -70,7 +70,7 @@ std::vector<Comparison> CompareWithPapers(const ReportedExperiment& experiment) 
   std::vector<Comparison> comparisons;
   for (const Expectation& e : experiment.record.expectations) {
     Comparison comparison{e, NameOfMetric(e.metric), "", "", {}};
-    comparison.paper = Printed(e.paper, comparison.metric);
+    comparison.paper = std::isnan(e.paper) ? "–" : Printed(e.paper, comparison.metric);
     if (!std::isnan(e.at_most)) comparison.target = Printed(e.at_most, comparison.metric);
     for (const ReportedRun& run : experiment.runs) {
       comparison.runs.push_back(Compare(run, e, comparison.metric));
@@ -81,9 +81,17 @@ std::vector<Comparison> CompareWithPapers(const ReportedExperiment& experiment) 
 }
 
 SummaryTable MakeSummaryTable(const ReportedExperiment& experiment) {
-  std::vector<std::string> keys(kFirstColumns.begin(), kFirstColumns.end());
+  const std::vector<const RunRecord*> finished = experiment.finished();
+  std::vector<std::string> keys;
+  for (const char* key : kFirstColumns) {  // without those that no run has, but for the run's name
+    const bool used = finished.empty() ||
+                      std::any_of(finished.begin(), finished.end(), [key](const RunRecord* run) {
+                        return run->summary.contains(key);
+                      });
+    if (used) keys.emplace_back(key);
+  }
   std::vector<std::string> others;
-  for (const RunRecord* run : experiment.finished()) {
+  for (const RunRecord* run : finished) {
     for (const auto& item : run->summary.items()) {
       if (std::find(keys.begin(), keys.end(), item.key()) == keys.end() &&
           std::find(others.begin(), others.end(), item.key()) == others.end()) {

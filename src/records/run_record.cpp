@@ -62,7 +62,7 @@ std::map<std::string, std::vector<double>> ParseSeries(const JsonNode& node, int
 }
 
 Expectation ParseExpectation(const JsonNode& node) {
-  return {node.At("metric").Text(), node.At("paper").Number(),
+  return {node.At("metric").Text(), node.At("paper").NumberOr(kNoValue),
           node.At("at_most").NumberOr(kNoValue), node.At("source").Text(),
           node.At("remark").Text()};
 }
@@ -109,7 +109,7 @@ ExperimentRecord ParseExperimentRecord(const JsonNode& node) {
 
 void to_json(Json& json, const Expectation& e) {
   json = {{"metric", e.metric},
-          {"paper", Finite(e.paper, e.metric + ".paper")},
+          {"paper", FiniteOrNull(e.paper, e.metric + ".paper")},
           {"at_most", FiniteOrNull(e.at_most, e.metric + ".at_most")},
           {"source", e.source},
           {"remark", e.remark}};

@@ -21,7 +21,7 @@ namespace vitruvia {
 // A number that a paper prints, to be set beside ours.
 struct Expectation {
   std::string metric;    // a key of the summary row
-  double paper = 0.0;    // published value
+  double paper = 0.0;    // published value; NaN: none
   double at_most = 0.0;  // our target; NaN: none
   std::string source;    // "paper A, figure 11"
   std::string remark;    // how the work differs

@@ -94,8 +94,11 @@ struct ScanRecorder::Jitter {
 };
 
 ScanRecorder::ScanRecorder(const ScanSceneSettings& settings)
+    : ScanRecorder(settings, Refine(MakeControlBody(settings.body), settings.truth.refinement)) {}
+
+ScanRecorder::ScanRecorder(const ScanSceneSettings& settings, BodyModel person)
     : settings_(settings),
-      body_(Refine(MakeControlBody(settings.body), settings.truth.refinement)),
+      body_(std::move(person)),
       jitter_(std::make_unique<Jitter>(settings.seed)),
       renderer_(std::make_unique<DepthRenderer>(settings.camera, kNearM, kFarM)) {
   BoneTransforms bones;

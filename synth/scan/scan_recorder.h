@@ -19,6 +19,8 @@ struct ScanFrame {
 class ScanRecorder {
  public:
   explicit ScanRecorder(const ScanSceneSettings& settings);
+  // Of that person instead of the settings' one.
+  ScanRecorder(const ScanSceneSettings& settings, BodyModel person);
   ~ScanRecorder();
 
   const ScanSceneSettings& settings() const { return settings_; }

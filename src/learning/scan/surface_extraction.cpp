@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
@@ -128,6 +129,9 @@ RawSurface ExtractSurface(const TsdfVolume& volume, double min_weight) {
       triangle[k] = static_cast<std::int32_t>(corners[k]);
       observed = observed && surface.weights[static_cast<std::size_t>(corners[k])] > 0.0f;
     }
+    // VTK turns triangles towards growing values, which here lie outside: counter-clockwise seen
+    // from inside.
+    std::swap(triangle[1], triangle[2]);
     if (observed) surface.mesh.triangles.push_back(triangle);
   }
   return surface;

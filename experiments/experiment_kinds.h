@@ -1,0 +1,21 @@
+// The kinds of experiments that `vitruvia run` carries out: an experiment file's "kind" decides.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "experiments/runner.h"
+
+namespace vitruvia {
+
+struct Experiment {
+  ExperimentRecord record;  // without failures
+  std::vector<PlannedRun> runs;
+};
+
+// "tracking" (the default; experiment_config.h) or "intrinsic_shape" (shape_study.h). Throws
+// ConfigError before anything has run.
+Experiment PlanAnyExperiment(const std::filesystem::path& experiment_file,
+                             const std::filesystem::path& folder, const WorkFolders& work);
+
+}  // namespace vitruvia

@@ -1,0 +1,33 @@
+// Work that is kept: a folder named after the settings it was made from, found again only by the
+// build that made it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/json_settings.h"
+
+namespace vitruvia {
+
+// What a stored result depends on: settings, input files and the program. Two equal keys mean that
+// doing the work again would change nothing but the clock.
+std::string WorkKey(const Json& resolved, const std::vector<std::filesystem::path>& input_files);
+
+class KeptFolder {
+ public:
+  // `cache`/NAME-HASH, the hash that of the resolved settings.
+  KeptFolder(const std::filesystem::path& cache, const std::string& name, const Json& resolved,
+             const std::vector<std::filesystem::path>& input_files = {});
+
+  const std::filesystem::path& path() const { return folder_; }
+  // Whether the folder is there, whole, and of this very key.
+  bool complete() const;
+  void MarkComplete() const;  // once all its files are written
+
+ private:
+  std::filesystem::path folder_, marker_;
+  std::string key_;
+};
+
+}  // namespace vitruvia

@@ -1,0 +1,18 @@
+#include "experiments/learn_command.h"
+
+#include <CLI/CLI.hpp>
+
+#include "experiments/learn_shape_command.h"
+#include "experiments/learn_weights_command.h"
+
+namespace vitruvia {
+
+void AddLearnCommand(CLI::App& app) {
+  CLI::App* learn = app.add_subcommand("learn", "Learn from bodies what a tracker needs to know");
+  learn->require_subcommand(1);
+  AddLearnDatabaseCommand(*learn);
+  AddLearnShapeCommand(*learn);
+  AddLearnWeightsCommand(*learn);
+}
+
+}  // namespace vitruvia

@@ -1,0 +1,183 @@
+// The fit to a scan, against planted shapes and finite differences.
+#include "learning/shape/intrinsic_shape.h"
+
+#include <numeric>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/random.h"
+#include "small_database.h"
+
+namespace vitruvia {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr int kComponents = 8;
+
+const ShapeSpace& Space() {
+  static const ShapeSpace space = [] {
+    std::vector<int> training(30);
+    std::iota(training.begin(), training.end(), 0);
+    return LearnShapeSpace(SmallDatabase(), training, {.components = kComponents});
+  }();
+  return space;
+}
+
+IntrinsicShapeSettings Settings() {
+  IntrinsicShapeSettings settings;
+  settings.components = kComponents;
+  return settings;
+}
+
+TriangleMesh MeshOf(const std::vector<Vector3f>& vertices) {
+  return {vertices, SmallDatabase().reference.rest.triangles};
+}
+
+double MeanVertexError(const std::vector<Vector3f>& a, const std::vector<Vector3f>& b) {
+  double sum = 0.0;
+  for (std::size_t v = 0; v < a.size(); ++v) sum += (a[v] - b[v]).norm();
+  return sum / static_cast<double>(a.size());
+}
+
+IntrinsicShape FitTo(const TriangleMesh& scan, const BodyAttributes& attributes,
+                     const IntrinsicShapeSettings& settings = Settings()) {
+  return FitIntrinsicShape(Space(), Space(), SurfaceOf(scan), attributes, settings);
+}
+
+TEST(PosedShape, RowsAgreeWithFiniteDifferences) {
+  PosedShape shape(Space(), kComponents);
+  RandomStream random(1, "pose");
+  Eigen::VectorXd bend(shape.parameter_count());
+  for (double& x : bend) x = random.Uniform(-0.2, 0.2);
+  const PosedShape::Parameters at = shape.Stepped(shape.Start(), bend);
+  const Vector3f n = Vector3f(0.3f, 0.5f, -0.8f).normalized();
+  std::vector<float> row(static_cast<std::size_t>(shape.parameter_count()));
+  constexpr double kStep = 1e-2;  // vertices are floats
+  for (const std::size_t vertex : {0ul, 333ul, 800ul, 1500ul}) {
+    shape.Set(at);
+    shape.Row(vertex, n, row.data());
+    for (int k = 0; k < shape.parameter_count(); ++k) {
+      double ends[2];
+      for (const int side : {0, 1}) {
+        Eigen::VectorXd step = Eigen::VectorXd::Zero(shape.parameter_count());
+        step[k] = side == 0 ? -kStep : kStep;
+        shape.Set(shape.Stepped(at, step));
+        ends[side] = n.dot(shape.vertices()[vertex]);
+      }
+      EXPECT_NEAR(row[static_cast<std::size_t>(k)], (ends[1] - ends[0]) / (2.0 * kStep), 1e-4)
+          << "vertex " << vertex << ", parameter " << k;
+    }
+  }
+}
+
+TEST(PosedShape, StartIsTheMeanShape) {
+  PosedShape shape(Space(), kComponents);
+  shape.Set(shape.Start());
+  EXPECT_LT(MeanVertexError(shape.vertices(), Shape(Space(), Eigen::VectorXd::Zero(1))), 1e-6);
+}
+
+TEST(IntrinsicShape, FindsAHeldOutPersonWhereverTheyStand) {
+  const DatabaseSubject& person = SmallDatabase().subjects[36];
+  TriangleMesh scan = MeshOf(person.vertices);
+  for (Vector3f& v : scan.vertices) v += Vector3f(0.08f, 0.02f, -0.05f);
+  const IntrinsicShape fit = FitTo(scan, person.attributes);
+  EXPECT_TRUE(fit.converged);
+  EXPECT_LT(MeanVertexError(fit.in_scan, scan.vertices), 0.001);
+  const Eigen::Vector2d measured = MeasuredAttributes(Space(), fit.theta, person.attributes.sex);
+  EXPECT_NEAR(measured[0], person.attributes.height_m, 1e-4);
+  EXPECT_NEAR(measured[1], person.attributes.weight_kg, 1e-2);
+}
+
+TEST(IntrinsicShape, TakesUpArmsThatHang) {
+  const DatabaseSubject& person = SmallDatabase().subjects[33];
+  BodyModel body = SmallDatabase().reference;
+  JointPose pose = JointPose::Rest(person.skeleton);
+  pose.local_rotations[static_cast<int>(BoneId::kLeftUpperArm)] = ExpSo3<double>({0.0, 0.0, -0.14});
+  pose.local_rotations[static_cast<int>(BoneId::kRightUpperArm)] = ExpSo3<double>({0.0, 0.05, 0.1});
+  std::vector<Vector3f> posed;
+  SkinLinear(person.vertices, body.weights, ForwardKinematics(person.skeleton, pose), posed);
+  const IntrinsicShape fit = FitTo(MeshOf(posed), person.attributes);
+  EXPECT_LT(MeanVertexError(fit.in_scan, posed), 0.002);
+  const Vector3d turned =
+      LogSo3<double>(fit.pose.local_rotations[static_cast<int>(BoneId::kLeftUpperArm)]);
+  EXPECT_NEAR(turned.z(), -0.14, 0.02);
+}
+
+TEST(IntrinsicShape, GivenAttributesAreHeldEvenIfTheScanSaysOtherwise) {
+  const DatabaseSubject& person = SmallDatabase().subjects[36];
+  BodyAttributes heavier = person.attributes;
+  heavier.weight_kg += 5.0;
+  const TriangleMesh scan = MeshOf(person.vertices);
+  const IntrinsicShape held = FitTo(scan, heavier);
+  EXPECT_NEAR(MeasuredAttributes(Space(), held.theta, heavier.sex)[1], heavier.weight_kg, 1e-2);
+  IntrinsicShapeSettings ignoring = Settings();
+  ignoring.attributes = AttributeUse::kIgnored;
+  const IntrinsicShape free = FitTo(scan, heavier, ignoring);
+  EXPECT_NEAR(MeasuredAttributes(Space(), free.theta, heavier.sex)[1], person.attributes.weight_kg,
+              1.0);
+}
+
+TriangleMesh Without(const TriangleMesh& mesh, BoneId bone) {
+  TriangleMesh rest = mesh;
+  const SkinWeights& weights = SmallDatabase().reference.weights;
+  std::erase_if(rest.triangles, [&](const Triangle& t) {
+    return weights.bones[t[0]][0] == static_cast<std::uint8_t>(bone);
+  });
+  // Vertices that no triangle uses have no normal; a scan has none of them.
+  std::vector<Vector3f> normals;
+  ComputeVertexNormals(rest.vertices, rest.triangles, normals);
+  std::vector<int> renumbered(rest.vertices.size(), -1);
+  TriangleMesh packed;
+  for (std::size_t v = 0; v < rest.vertices.size(); ++v) {
+    if (normals[v].squaredNorm() == 0.0f) continue;
+    renumbered[v] = static_cast<int>(packed.vertices.size());
+    packed.vertices.push_back(rest.vertices[v]);
+  }
+  for (const Triangle& t : rest.triangles)
+    packed.triangles.push_back({renumbered[t[0]], renumbered[t[1]], renumbered[t[2]]});
+  return packed;
+}
+
+template <class Error>
+std::string MessageOf(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(IntrinsicShape, RefusesAScanThatLacksTheHead) {
+  const DatabaseSubject& person = SmallDatabase().subjects[36];
+  const TriangleMesh headless = Without(MeshOf(person.vertices), BoneId::kHead);
+  EXPECT_THAT(MessageOf<DataError>([&] { FitTo(headless, person.attributes); }),
+              testing::AnyOf(HasSubstr("head"), HasSubstr("m high")));
+}
+
+TEST(IntrinsicShape, DoesWithoutSoles) {
+  const DatabaseSubject& person = SmallDatabase().subjects[36];
+  TriangleMesh scan = MeshOf(person.vertices);
+  std::erase_if(scan.triangles, [&](const Triangle& t) { return scan.vertices[t[0]].y() < 0.01f; });
+  const IntrinsicShape fit = FitTo(scan, person.attributes);
+  EXPECT_LT(MeanVertexError(fit.in_scan, person.vertices), 0.0015);
+}
+
+TEST(IntrinsicShape, RefusesEmptyScansAndAttributesThatNobodyHas) {
+  const DatabaseSubject& person = SmallDatabase().subjects[36];
+  EXPECT_THAT(MessageOf<DataError>([&] { FitTo({}, person.attributes); }), HasSubstr("empty"));
+  BodyAttributes giant = person.attributes;
+  giant.height_m = 1.2 * person.attributes.height_m;
+  EXPECT_THAT(MessageOf<DataError>([&] { FitTo(MeshOf(person.vertices), giant); }),
+              HasSubstr("m high"));
+  BodyAttributes heavy = person.attributes;
+  heavy.weight_kg = 400.0;
+  EXPECT_THAT(MessageOf<ConfigError>([&] { FitTo(MeshOf(person.vertices), heavy); }),
+              HasSubstr("standard deviations"));
+}
+
+}  // namespace
+}  // namespace vitruvia
