@@ -15,8 +15,7 @@ constexpr float kCareful = 0.8f;     // of a distance is stepped: it is measured
 constexpr int kRefinements = 2;      // of a crossing, by false position
 constexpr float kBlindStep = 1.0f;   // voxels, where a block has not been observed
 constexpr float kPastBlock = 0.01f;  // voxels beyond a block's end: surely in the next one
-constexpr int kSide = TsdfVolume::kBlockSide, kSideBits = 3;
-static_assert(kSide == 1 << kSideBits);
+constexpr int kSide = TsdfVolume::kBlockSide, kSideBits = TsdfVolume::kBlockBits;
 
 }  // namespace
 
@@ -97,12 +96,12 @@ bool TsdfVolume::March(const Vector3f& origin, const Vector3f& ray, const Range&
       z += BlockExit(position, ray, voxel) + kPastBlock * z_per_voxel;
       continue;
     }
-    if (weights_[index] <= 0.0f) {
+    if (cells_[index].weight <= 0.0f) {
       last_distance = 0.0f;
       z += kBlindStep * z_per_voxel;
       continue;
     }
-    float distance = distances_[index] * truncation_m_;
+    float distance = cells_[index].distance * truncation_m_;
     const bool close = std::abs(distance) < 2.0f * voxel_m_;
     if (close && !Interpolate(position, distance)) {
       last_distance = 0.0f;

@@ -15,8 +15,8 @@ constexpr int kMaxBlocks = 200000;  // 100 million voxels: ten times what a body
 // otherwise count more on one side of the surface than on the other.
 constexpr float kFullWeightBehind = 0.5f;
 
-constexpr int kSide = TsdfVolume::kBlockSide, kSideBits = 3, kSideMask = kSide - 1;
-static_assert(kSide == 1 << kSideBits);
+constexpr int kSide = TsdfVolume::kBlockSide, kSideBits = TsdfVolume::kBlockBits;
+constexpr int kSideMask = kSide - 1;
 
 }  // namespace
 
@@ -36,25 +36,10 @@ TsdfVolume::TsdfVolume(const VolumeSettings& settings)
   block_numbers_.assign(count, -1);
 }
 
-int TsdfVolume::BlockAt(int bx, int by, int bz) const {
-  if (bx < 0 || by < 0 || bz < 0 || bx >= blocks_[0] || by >= blocks_[1] || bz >= blocks_[2]) {
-    return -1;
-  }
-  return block_numbers_[(static_cast<std::size_t>(bz) * blocks_[1] + by) * blocks_[0] + bx];
-}
-
-std::int64_t TsdfVolume::IndexOf(int x, int y, int z) const {
-  if (x < 0 || y < 0 || z < 0) return -1;
-  const int block = BlockAt(x >> kSideBits, y >> kSideBits, z >> kSideBits);
-  if (block < 0) return -1;
-  return static_cast<std::int64_t>(block) * kBlockVoxels +
-         ((((z & kSideMask) << kSideBits) + (y & kSideMask)) << kSideBits) + (x & kSideMask);
-}
-
 TsdfVolume::Voxel TsdfVolume::At(const Lattice& point) const {
   const std::int64_t index = IndexOf(point[0], point[1], point[2]);
   if (index < 0) return {};
-  return {distances_[index] * truncation_m_, weights_[index]};
+  return {cells_[index].distance * truncation_m_, cells_[index].weight};
 }
 
 bool TsdfVolume::Interpolate(const Vector3f& position, float& distance_m) const {
@@ -70,14 +55,14 @@ bool TsdfVolume::Interpolate(const Vector3f& position, float& distance_m) const 
     for (int c = 0; c < 8; ++c) {
       const std::int64_t index =
           first + (c & 1) + kSide * ((c >> 1) & 1) + kSide * kSide * (c >> 2);
-      if (weights_[index] <= 0.0f) return false;
-      corners[c] = distances_[index];
+      if (cells_[index].weight <= 0.0f) return false;
+      corners[c] = cells_[index].distance;
     }
   } else {
     for (int c = 0; c < 8; ++c) {
       const std::int64_t index = IndexOf(i + (c & 1), j + ((c >> 1) & 1), k + (c >> 2));
-      if (index < 0 || weights_[index] <= 0.0f) return false;
-      corners[c] = distances_[index];
+      if (index < 0 || cells_[index].weight <= 0.0f) return false;
+      corners[c] = cells_[index].distance;
     }
   }
   const float fx = position.x() - x, fy = position.y() - y, fz = position.z() - z;
@@ -123,9 +108,7 @@ void TsdfVolume::MakeRoom(const PointMap& seen, const Rigidd& subject_from_camer
       for (int s = -steps; s <= steps; ++s) MakeBlock(in_subject + static_cast<float>(s) * step);
     }
   }
-  const std::size_t voxels = static_cast<std::size_t>(block_count()) * kBlockVoxels;
-  distances_.resize(voxels, 1.0f);
-  weights_.resize(voxels, 0.0f);
+  cells_.resize(static_cast<std::size_t>(block_count()) * kBlockVoxels);
 }
 
 // What integration wants to know of each pixel.
@@ -256,13 +239,12 @@ void TsdfVolume::IntegrateBlock(int block, const View& view) {
   const float v_end = static_cast<float>(view.pixels.height()) - 0.5f;
   const auto max_weight = static_cast<float>(settings_.max_weight);
   const float per_truncation = 1.0f / truncation_m_;
-  float* distance = distances_.data() + static_cast<std::size_t>(block) * kBlockVoxels;
-  float* weight = weights_.data() + static_cast<std::size_t>(block) * kBlockVoxels;
+  Cell* cell = cells_.data() + static_cast<std::size_t>(block) * kBlockVoxels;
   for (int yz = 0; yz < kSide * kSide; ++yz) {
     const Vector3f start = first + static_cast<float>(yz & kSideMask) * axes.col(1) +
                            static_cast<float>(yz >> kSideBits) * axes.col(2);
     const VoxelRow row(start, axes.col(0), view.camera);
-    for (int x = 0; x < kSide; ++x, ++distance, ++weight) {
+    for (int x = 0; x < kSide; ++x, ++cell) {
       const float u = row.u[x], v = row.v[x];
       if (!(row.z[x] > 0.0f && u >= -0.5f && v >= -0.5f && u < u_end && v < v_end)) continue;
       const View::Pixel& pixel =
@@ -274,8 +256,9 @@ void TsdfVolume::IntegrateBlock(int block, const View& view) {
       const float fade =
           behind > kFullWeightBehind ? (1.0f - behind) / (1.0f - kFullWeightBehind) : 1.0f;
       const float w = pixel.weight * fade;
-      *distance = (*distance * *weight + std::min(d, 1.0f) * w) / (*weight + w);
-      *weight = std::min(*weight + w, max_weight);
+      const float sum = cell->weight + w;
+      cell->distance = (cell->distance * cell->weight + std::min(d, 1.0f) * w) / sum;
+      cell->weight = std::min(sum, max_weight);
     }
   }
 }

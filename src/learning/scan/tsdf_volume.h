@@ -20,7 +20,7 @@ namespace vitruvia {
 
 class TsdfVolume {
  public:
-  static constexpr int kBlockSide = 8;
+  static constexpr int kBlockBits = 3, kBlockSide = 1 << kBlockBits;
   static constexpr int kBlockVoxels = kBlockSide * kBlockSide * kBlockSide;
   using Lattice = std::array<int, 3>;
 
@@ -64,8 +64,19 @@ class TsdfVolume {
     float z, distance_m;
   };
 
-  int BlockAt(int bx, int by, int bz) const;
-  std::int64_t IndexOf(int x, int y, int z) const;  // into the arrays; -1: no memory
+  // Into cells_; -1: no memory.
+  std::int64_t IndexOf(int x, int y, int z) const {
+    const int bx = x >> kBlockBits, by = y >> kBlockBits, bz = z >> kBlockBits;
+    if (bx < 0 || by < 0 || bz < 0 || bx >= blocks_[0] || by >= blocks_[1] || bz >= blocks_[2]) {
+      return -1;
+    }
+    const std::int64_t block =
+        block_numbers_[(static_cast<std::size_t>(bz) * blocks_[1] + by) * blocks_[0] + bx];
+    if (block < 0) return -1;
+    constexpr int kMask = kBlockSide - 1;
+    return block * kBlockVoxels + ((((z & kMask) << kBlockBits) + (y & kMask)) << kBlockBits) +
+           (x & kMask);
+  }
   void MakeRoom(const PointMap& seen, const Rigidd& subject_from_camera);
   void MakeBlock(const Vector3f& point_in_subject);
   void IntegrateBlock(int block, const View& view);
@@ -83,8 +94,11 @@ class TsdfVolume {
   std::array<int, 3> blocks_;                // of the dense grid
   std::vector<std::int32_t> block_numbers_;  // dense; -1: no memory
   std::vector<Lattice> block_corners_;
-  std::vector<float> distances_;  // blocks × 512, in units of the truncation
-  std::vector<float> weights_;    // blocks × 512
+  struct Cell {
+    float distance = 1.0f;  // in units of the truncation
+    float weight = 0.0f;
+  };
+  std::vector<Cell> cells_;  // blocks × 512
 };
 
 }  // namespace vitruvia
