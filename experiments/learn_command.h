@@ -1,0 +1,12 @@
+// `vitruvia learn database | shape | weights`.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace vitruvia {
+
+void AddLearnCommand(CLI::App& app);
+
+}  // namespace vitruvia
