@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "experiments/experiment_config.h"
 #include "experiments/scan.h"
+#include "experiments/shape_study.h"
 
 namespace vitruvia {
 namespace {
@@ -14,6 +15,9 @@ std::vector<FieldDescription> AllSettings() {
   };
   append(Describe<SceneSettings>("scene"));
   append(Describe<ScanSettings>("scan"));
+  append(Describe<LearningSettings>("learning"));
+  append(Describe<IntrinsicShapeSettings>("fit"));
+  append(Describe<ShapeStudySettings>("intrinsic_shape"));
   for (const MethodInfo& method : Methods()) append(method.settings);
   return all;
 }

@@ -30,19 +30,23 @@ std::string VerdictCell(Verdict verdict) {
   return "<td></td>";
 }
 
+bool HasFrames(const RunRecord* run) { return !run->frames.empty(); }
+
 std::string Header(const ReportedExperiment& experiment) {
   const std::size_t finished = experiment.finished().size();
   const std::size_t absent = experiment.runs.size() - finished;
+  const auto runs = experiment.finished();
+  const bool tracked = runs.empty() || std::any_of(runs.begin(), runs.end(), HasFrames);
   std::string status = fmt::format("{} of {} runs finished", finished, experiment.runs.size());
   if (absent > 0) status += fmt::format("; <b>{} failed or missing</b>, listed below", absent);
   return fmt::format(
       "<header><p class=\"kicker\"><code>{}</code></p><h1>{}</h1><p>{}</p>"
       "<p class=\"soft\">{}.</p>"
-      "<nav><a href=\"#papers\">Paper and ours</a><a href=\"#plots\">Plots</a>"
-      "<a href=\"#pictures\">Pictures</a><a href=\"#steps\">Time per step</a>"
+      "<nav><a href=\"#papers\">Paper and ours</a>{}<a href=\"#pictures\">Pictures</a>{}"
       "<a href=\"#runs\">All runs</a><a href=\"#provenance\">Provenance</a></nav></header>\n",
       Escaped(experiment.record.name), Escaped(experiment.record.title),
-      Escaped(experiment.record.description), status);
+      Escaped(experiment.record.description), status, tracked ? "<a href=\"#plots\">Plots</a>" : "",
+      tracked ? "<a href=\"#steps\">Time per step</a>" : "");
 }
 
 std::string ComparisonRows(const Comparison& c) {
@@ -80,10 +84,12 @@ std::string PaperSection(const ReportedExperiment& experiment) {
   return html + "</table></div></section>\n";
 }
 
-std::string PlotSection(const std::vector<DrawnFigure>& figures) {
+std::string PlotSection(const ReportedExperiment& experiment,
+                        const std::vector<DrawnFigure>& figures) {
+  const bool finished = !experiment.finished().empty();
+  if (finished && figures.empty()) return "";  // runs without frames
   std::string html = "<section id=\"plots\"><h2>Plots</h2>\n";
-  if (figures.empty())
-    html += "<p>No run with frames has finished, so there is nothing to plot.</p>\n";
+  if (!finished) html += "<p>No run has finished, so there is nothing to plot.</p>\n";
   for (const DrawnFigure& figure : figures) {
     // An SVG inside a page needs no XML header and gets its description from the page.
     const std::size_t at = figure.svg.find("<svg");
@@ -186,9 +192,7 @@ std::string StepRows(const RunRecord& run) {
 
 std::string StepSection(const ReportedExperiment& experiment) {
   const auto runs = experiment.finished();
-  const bool timed = std::any_of(runs.begin(), runs.end(),
-                                 [](const RunRecord* run) { return !run->steps.empty(); });
-  if (!timed) return "";
+  if (!runs.empty() && std::none_of(runs.begin(), runs.end(), HasFrames)) return "";
   std::string html =
       "<section id=\"steps\"><h2>Time per step</h2>\n<p>Milliseconds. Ours are per frame, summed "
       "over the frame’s iterations. Paper A’s table 1 was measured on one 3.4 GHz CPU; its steps 5 "
@@ -281,7 +285,7 @@ std::string MakePage(const ReportedExperiment& experiment, const std::vector<Dra
       Escaped(experiment.record.title), kPageStyle);
   page += Header(experiment) + "<main>\n";
   page += PaperSection(experiment);
-  page += PlotSection(figures);
+  page += PlotSection(experiment, figures);
   page += PictureSection(pictures);
   page += StepSection(experiment);
   page += RunsSection(experiment);

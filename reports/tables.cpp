@@ -84,7 +84,7 @@ SummaryTable MakeSummaryTable(const ReportedExperiment& experiment) {
   const std::vector<const RunRecord*> finished = experiment.finished();
   std::vector<std::string> keys;
   for (const char* key : kFirstColumns) {  // without those that no run has, but for the run's name
-    const bool used = finished.empty() ||
+    const bool used = finished.empty() || key == std::string("run_id") ||
                       std::any_of(finished.begin(), finished.end(), [key](const RunRecord* run) {
                         return run->summary.contains(key);
                       });

@@ -104,7 +104,7 @@ TEST(Database, RestPoseWithoutNoiseIsTheRestSurface) {
 
 TEST(Database, RefusesDistributionsThatMissEveryMannequin) {
   PopulationSettings settings;
-  settings.body_mass_index = 40.0;
+  settings.body_mass_index = 60.0;
   settings.body_mass_index_deviation = 0.0;
   Population population(settings);
   EXPECT_THROW(population.Subject(0), ConfigError);

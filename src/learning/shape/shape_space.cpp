@@ -148,12 +148,14 @@ ShapeSpace LearnShapeSpace(const BodyDatabase& database, const std::vector<int>&
         "shape space: {} people, expected more than the {} components that are to be learnt",
         people, settings.components));
   }
-  Eigen::MatrixXd joints(kJointCoordinates, people), attributes(kAttributeCount, people);
+  Eigen::MatrixXd joints(kJointCoordinates, people), attributes(kAttributeCount, people),
+      places(3, people);
   for (Eigen::Index i = 0; i < people; ++i) {
     const DatabaseSubject& subject = database.subjects[static_cast<std::size_t>(subjects[i])];
     Vector3d mean;
     Centred(subject.vertices, mean);
     joints.col(i) = FlatJoints(subject.skeleton, mean);
+    places.col(i) = mean;
     attributes.col(i) = AttributeVector(subject.attributes);
   }
   const Components components = settings.form == ShapeForm::kScape
@@ -165,6 +167,8 @@ ShapeSpace LearnShapeSpace(const BodyDatabase& database, const std::vector<int>&
   space.basis = components.basis;
   space.joint_mean = joints.rowwise().mean();
   space.joint_basis = Regression(joints, components.scores);
+  space.place_mean = places.rowwise().mean();
+  space.place_basis = Regression(places, components.scores);
   space.density_kg_m3 = Densities(database, subjects);
   space.attribute_mean = attributes.rowwise().mean();
   space.attribute_basis = Regression(attributes, components.scores);
@@ -191,7 +195,8 @@ BodyModel PlacedBody(const ShapeSpace& space, const Eigen::VectorXd& theta, Sex 
                           [](const Vector3f& a, const Vector3f& b) { return a.y() < b.y(); });
   body.attributes = {static_cast<double>(highest->y() - lowest->y()),
                      EnclosedVolume(body.rest) * space.density_kg_m3[SexIndex(sex)], sex};
-  const Vector3f lift(0.0f, -lowest->y(), 0.0f);
+  const Eigen::Vector3d place = space.place_mean + space.place_basis.leftCols(theta.size()) * theta;
+  const Vector3f lift(static_cast<float>(place.x()), -lowest->y(), static_cast<float>(place.z()));
   for (Vector3f& v : body.rest.vertices) v += lift;
   const Eigen::VectorXd joints =
       space.joint_mean + space.joint_basis.leftCols(theta.size()) * theta;

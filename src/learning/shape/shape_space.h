@@ -35,6 +35,8 @@ struct ShapeSpace {
   Eigen::MatrixXf basis;            // 3V × K, metres per standard deviation
   Eigen::VectorXd joint_mean;       // 6 × 17: joints, then tips, relative to the vertices' mean
   Eigen::MatrixXd joint_basis;      // 102 × K, by regression
+  Eigen::Vector3d place_mean;       // where the vertices' mean is in the subject frame, metres
+  Eigen::MatrixXd place_basis;      // 3 × K, by regression
   Eigen::Vector3d attribute_mean;   // see AttributeVector
   Eigen::MatrixXd attribute_basis;  // 3 × K, by regression: the attributes' directions
   Eigen::Vector2d density_kg_m3;    // of women and men: the database's weights over its volumes
@@ -50,7 +52,8 @@ ShapeSpace LearnShapeSpace(const BodyDatabase& database, const std::vector<int>&
 // The surface of coefficients θ (up to K of them), centred.
 std::vector<Vector3f> Shape(const ShapeSpace& space, const Eigen::VectorXd& theta);
 
-// The body of coefficients θ: surface with feet on y = 0, regressed joints, and the attributes of
+// The body of coefficients θ: surface with feet on y = 0, front to back where the database's people
+// stand in their subject frames, regressed joints, and the attributes of
 // its surface (weight by the sex's density).
 BodyModel PlacedBody(const ShapeSpace& space, const Eigen::VectorXd& theta, Sex sex);
 

@@ -73,6 +73,8 @@ void WriteShapeSpace(const fs::path& folder, const ShapeSpace& space) {
   WriteMatrix(staged.path() / "basis.bin", space.basis);
   WriteMatrix(staged.path() / "joint_mean.bin", space.joint_mean);
   WriteMatrix(staged.path() / "joint_basis.bin", space.joint_basis);
+  WriteMatrix(staged.path() / "place_mean.bin", space.place_mean);
+  WriteMatrix(staged.path() / "place_basis.bin", space.place_basis);
   WriteMatrix(staged.path() / "attribute_mean.bin", space.attribute_mean);
   WriteMatrix(staged.path() / "attribute_basis.bin", space.attribute_basis);
   WriteMatrix(staged.path() / "density.bin", space.density_kg_m3);
@@ -91,6 +93,8 @@ ShapeSpace ReadShapeSpace(const fs::path& folder) {
   space.joint_mean = ReadMatrix<Eigen::VectorXd>(folder / "joint_mean.bin", kJointCoordinates, 1);
   space.joint_basis =
       ReadMatrix<Eigen::MatrixXd>(folder / "joint_basis.bin", kJointCoordinates, components);
+  space.place_mean = ReadMatrix<Eigen::VectorXd>(folder / "place_mean.bin", 3, 1);
+  space.place_basis = ReadMatrix<Eigen::MatrixXd>(folder / "place_basis.bin", 3, components);
   space.attribute_mean =
       ReadMatrix<Eigen::MatrixXd>(folder / "attribute_mean.bin", kAttributeCount, 1);
   space.attribute_basis =
