@@ -1,6 +1,7 @@
 // The fit to a scan, against planted shapes and finite differences.
 #include "learning/shape/intrinsic_shape.h"
 
+#include <numbers>
 #include <numeric>
 
 #include <gmock/gmock.h>
@@ -9,6 +10,7 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "small_database.h"
+#include "solver/ceres_adaptor.h"
 
 namespace vitruvia {
 namespace {
@@ -118,6 +120,84 @@ TEST(IntrinsicShape, GivenAttributesAreHeldEvenIfTheScanSaysOtherwise) {
   const IntrinsicShape free = FitTo(scan, heavier, ignoring);
   EXPECT_NEAR(MeasuredAttributes(Space(), free.theta, heavier.sex)[1], person.attributes.weight_kg,
               1.0);
+}
+
+// A body's nearest point within reach, by looking at all: index, or -1.
+int Nearest(const Vector3f& query, const std::vector<Vector3f>& points, float reach) {
+  int nearest = -1;
+  float least = reach * reach;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const float squared = (points[i] - query).squaredNorm();
+    if (squared >= least) continue;
+    least = squared;
+    nearest = static_cast<int>(i);
+  }
+  return nearest;
+}
+
+struct WeightedPair {
+  std::size_t vertex;
+  Vector3f target, n;
+  double weight;  // of its residual: unit, λ₁ and kernel
+};
+
+// The pairs of a fit at its solution, both ways.
+std::vector<WeightedPair> PairsOf(const ScannedSurface& scan, const std::vector<Vector3f>& body,
+                                  const IntrinsicShapeSettings& settings) {
+  std::vector<Vector3f> normals;
+  ComputeVertexNormals(body, Space().reference.rest.triangles, normals);
+  const auto reach = static_cast<float>(settings.last_cutoff_m);
+  std::vector<WeightedPair> pairs;
+  const auto add = [&](std::size_t vertex, const Vector3f& target, const Vector3f& n,
+                       const Vector3f& other_n) {
+    if (n.dot(other_n) < 0.5f) return;  // 60 degrees
+    const double relative = n.dot(body[vertex] - target) / settings.robust_m;
+    pairs.push_back(
+        {vertex, target, n,
+         std::sqrt(settings.lambda) / settings.length_unit_m / (1.0 + relative * relative)});
+  };
+  for (std::size_t v = 0; v < body.size(); ++v) {
+    const int s = Nearest(body[v], scan.points, reach);
+    if (s >= 0) add(v, scan.points[s], scan.normals[s], normals[v]);
+  }
+  for (std::size_t s = 0; s < scan.points.size(); ++s) {
+    const int v = Nearest(scan.points[s], body, reach);
+    if (v >= 0) add(v, scan.points[s], normals[v], scan.normals[s]);
+  }
+  return pairs;
+}
+
+TEST(IntrinsicShape, CeresFindsNothingLowerForTheSamePairs) {
+  const DatabaseSubject& person = SmallDatabase().subjects[36];
+  const ScannedSurface scan = SurfaceOf(MeshOf(person.vertices));
+  IntrinsicShapeSettings settings = Settings();
+  settings.attributes = AttributeUse::kIgnored;
+  settings.max_iterations = 100;
+  settings.stop_m = 1e-7;
+  const IntrinsicShape fit = FitIntrinsicShape(Space(), Space(), scan, person.attributes, settings);
+  PosedShape shape(Space(), kComponents);
+  shape.Set(fit.pose);
+  const std::vector<WeightedPair> pairs = PairsOf(scan, shape.vertices(), settings);
+  ASSERT_GT(pairs.size(), 2000u);
+  const double per_radian = 180.0 / std::numbers::pi / settings.pose_slack_deg;
+  const auto residuals = [&](const Eigen::VectorXd& step) {
+    const PosedShape::Parameters at = shape.Stepped(fit.pose, step);
+    shape.Set(at);
+    Eigen::VectorXd r(pairs.size() + kComponents + 3 * (kBoneCount - 1));
+    Eigen::Index row = 0;
+    for (const WeightedPair& pair : pairs)
+      r[row++] = pair.weight * pair.n.dot(shape.vertices()[pair.vertex] - pair.target);
+    r.segment(row, kComponents) = at.theta;
+    row += kComponents;
+    for (int b = 1; b < kBoneCount; ++b, row += 3)
+      r.segment<3>(row) = per_radian * LogSo3<double>(at.local_rotations[b]);
+    return r;
+  };
+  const Eigen::VectorXd here = Eigen::VectorXd::Zero(shape.parameter_count());
+  const double ours = residuals(here).squaredNorm();
+  const CeresResult ceres = MinimizeWithCeres(residuals, here);
+  ASSERT_TRUE(ceres.usable) << ceres.report;
+  EXPECT_LE(ours, ceres.energy * (1.0 + 1e-3));
 }
 
 TriangleMesh Without(const TriangleMesh& mesh, BoneId bone) {
