@@ -119,6 +119,7 @@ Json SurfaceJson(const ScanSurface& surface) {
   }
   for (const BoundaryLoop& hole : surface.holes) {
     holes.push_back({{"perimeter_m", hole.perimeter_m},
+                     {"area_m2", hole.area_m2},
                      {"center_m", ToJson(hole.center)},
                      {"edges", hole.edges}});
   }

@@ -93,6 +93,7 @@ TEST(BoundaryLoops, MeasureAHole) {
   ASSERT_THAT(loops, SizeIs(1));
   EXPECT_EQ(loops[0].edges, 3);
   EXPECT_NEAR(loops[0].perimeter_m, 3.0 * std::sqrt(2.0), 1e-6);
+  EXPECT_NEAR(loops[0].area_m2, std::sqrt(3.0) / 2.0, 1e-6);
   EXPECT_LT((loops[0].center - Vector3f::Constant(1.0f / 3.0f)).norm(), 1e-6f);
   EXPECT_TRUE(FindBoundaryLoops(Tetrahedron(1.0f)).empty());
 }

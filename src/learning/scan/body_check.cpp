@@ -27,13 +27,13 @@ void BodyCheckSettings::Describe(Fields& f) {
             .max = 1.0,
             .origin = Origin::kGuessed,
             .source = "above the chin: what lies below may be hidden by it"});
-  f.Number("max_head_hole_m", max_head_hole_m,
-           {.meaning = "a longer boundary there is a hole for a head",
-            .unit = "m",
+  f.Number("max_head_hole_m2", max_head_hole_m2,
+           {.meaning = "a larger opening there is a hole for a head",
+            .unit = "m²",
             .min = 0.0,
-            .max = 10.0,
+            .max = 1.0,
             .origin = Origin::kGuessed,
-            .source = "a neck is 0.33 m round and more, a crown seen from the side 0.15 m"});
+            .source = "a neck's section has 0.008 m² and more, a crown seen from the side 0.005"});
 }
 
 void RequireOneWholeBody(const ScanSurface& surface, const BodyCheckSettings& settings) {
@@ -56,13 +56,13 @@ void RequireOneWholeBody(const ScanSurface& surface, const BodyCheckSettings& se
   for (const Vector3f& p : surface.mesh.vertices) top = std::max(top, p.y());
   for (const BoundaryLoop& hole : surface.holes) {
     if (hole.center.y() < top - static_cast<float>(settings.head_reach_m) ||
-        hole.perimeter_m <= settings.max_head_hole_m) {
+        hole.area_m2 <= settings.max_head_hole_m2) {
       continue;
     }
     throw DataError(fmt::format(
-        "scan: a hole for a head: at a height of {:.2f} m, {:.2f} m below the top, the surface is "
-        "open along {:.2f} m; expected at most {:g} m",
-        hole.center.y(), top - hole.center.y(), hole.perimeter_m, settings.max_head_hole_m));
+        "scan: a hole for a head: at a height of {:.2f} m, {:.2f} m below the top, the surface has "
+        "an opening of {:.4f} m²; expected at most {:g} m²",
+        hole.center.y(), top - hole.center.y(), hole.area_m2, settings.max_head_hole_m2));
   }
 }
 

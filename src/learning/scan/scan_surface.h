@@ -20,6 +20,7 @@ struct SurfaceComponent {
 // A hole: a closed chain of edges with a triangle on one side only.
 struct BoundaryLoop {
   double perimeter_m = 0.0;
+  double area_m2 = 0.0;                // of the opening: the length of the loop's vector area
   Vector3f center = Vector3f::Zero();  // mean of its edges' middles, weighted by length
   int edges = 0;
 };

@@ -130,17 +130,20 @@ std::vector<BoundaryLoop> FindBoundaryLoops(const TriangleMesh& mesh) {
   std::vector<BoundaryLoop> loops;
   while (!next.empty()) {
     BoundaryLoop loop;
-    Vector3d center = Vector3d::Zero();
+    Vector3d center = Vector3d::Zero(), twice_area = Vector3d::Zero();
+    const Vector3d origin = mesh.vertices[next.begin()->first].cast<double>();
     for (auto edge = next.begin(); edge != next.end();) {
       const Vector3d from = mesh.vertices[edge->first].cast<double>();
       const std::int32_t arrived = edge->second;
       const Vector3d to = mesh.vertices[arrived].cast<double>();
       loop.perimeter_m += (to - from).norm();
       center += (to - from).norm() * 0.5 * (from + to);
+      twice_area += (from - origin).cross(to - origin);
       ++loop.edges;
       next.erase(edge);
       edge = next.find(arrived);
     }
+    loop.area_m2 = 0.5 * twice_area.norm();
     if (loop.perimeter_m > 0.0) loop.center = (center / loop.perimeter_m).cast<float>();
     loops.push_back(loop);
   }
