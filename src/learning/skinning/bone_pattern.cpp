@@ -70,12 +70,11 @@ bool BoneCholesky::Factor(const BonePattern& pattern, const std::vector<Matrix6>
     Matrix6& diagonal = lower_[pattern.Slot(column, column)];
     const Eigen::LLT<Matrix6> cholesky(diagonal);
     if (cholesky.info() != Eigen::Success) return false;
-    diagonal = cholesky.matrixL();
+    diagonal.setIdentity();
+    cholesky.matrixL().solveInPlace(diagonal);
     for (int row = column + 1; row < n; ++row) {
       const int slot = pattern.Slot(row, column);
-      if (slot < 0) continue;
-      diagonal.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(
-          lower_[slot]);
+      if (slot >= 0) lower_[slot] = (lower_[slot] * diagonal.transpose()).eval();
     }
   }
   return true;
@@ -89,11 +88,11 @@ void BoneCholesky::SolveInPlace(const BonePattern& pattern, Eigen::Ref<Eigen::Ve
       const int slot = pattern.Slot(row, column);
       if (slot >= 0) own -= lower_[slot] * x.segment<6>(6 * pattern.BoneAt(column));
     }
-    lower_[pattern.Slot(row, row)].triangularView<Eigen::Lower>().solveInPlace(own);
+    own = (lower_[pattern.Slot(row, row)] * own).eval();
   }
   for (int row = n - 1; row >= 0; --row) {
     auto own = x.segment<6>(6 * pattern.BoneAt(row));
-    lower_[pattern.Slot(row, row)].triangularView<Eigen::Lower>().transpose().solveInPlace(own);
+    own = (lower_[pattern.Slot(row, row)].transpose() * own).eval();
     for (int column = 0; column < row; ++column) {
       const int slot = pattern.Slot(row, column);
       if (slot >= 0) x.segment<6>(6 * pattern.BoneAt(column)) -= lower_[slot].transpose() * own;

@@ -41,7 +41,7 @@ class BoneCholesky {
   void SolveInPlace(const BonePattern& pattern, Eigen::Ref<Eigen::VectorXd> x) const;
 
  private:
-  std::vector<Matrix6> lower_;
+  std::vector<Matrix6> lower_;  // L, with the inverses of its blocks on the diagonal
 };
 
 }  // namespace vitruvia::skinning

@@ -1,9 +1,11 @@
 #include "learning/skinning/decomposition.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
 #include "core/timer.h"
+#include "core/worker_team.h"
 #include "learning/skinning/joint_step.h"
 #include "learning/skinning/packed_examples.h"
 #include "learning/skinning/transform_step.h"
@@ -12,7 +14,13 @@
 namespace vitruvia::skinning {
 namespace {
 
-constexpr int kRigidRounds = 2;
+constexpr int kManyTransformSteps = 50;  // they end by themselves when nothing is gained
+constexpr int kRigidRounds = 2;  // floats of a body's size, then of the first round's errors
+
+// Of joint steps, relative to the diagonal: less after each that lowered the energy, more after
+// each that did not.
+constexpr double kFirstDamping = 1e-2, kLeastDamping = 1e-6, kMostDamping = 1e3;
+constexpr double kDampingFall = 4.0, kDampingRise = 10.0;
 
 std::vector<std::uint8_t> LabelsOfRows(const PackedExamples& packed, const Labels& labels) {
   std::vector<std::uint8_t> of_rows(labels.size());
@@ -46,50 +54,63 @@ class Alternator {
              const Settings& settings)
       : settings_(settings),
         bones_(static_cast<int>(candidates.size())),
+        team_(settings.threads),
         packed_(examples, labels),
         label_of_row_(LabelsOfRows(packed_, labels)),
         weights_(RigidWeights(label_of_row_)),
-        weight_step_(packed_, label_of_row_, candidates, settings.influences, settings.threads),
+        weight_step_(packed_, label_of_row_, candidates, settings.influences, team_),
         transform_step_(bones_, packed_.pose_count(), settings.transforms, settings.transform_steps,
-                        settings.threads),
-        joint_step_(packed_, bones_, settings.joint_iterations, settings.threads),
+                        team_),
+        joint_step_(packed_, bones_, settings.joint_iterations, team_),
         pattern_(bones_),
         moments_(bones_, packed_.pose_count()),
         stack_(Standing(bones_, packed_.pose_count())) {}
 
   // Rigid pieces: in closed form, since they may have turned by any angle.
   double FitRigidPieces() {
-    weight_step_.Gather(stack_, weights_, moments_);
-    TransformStep closed_form(bones_, packed_.pose_count(), TransformSolver::kClosedForm, 1,
-                              settings_.threads);
-    energy_ = closed_form.Solve(pattern_, moments_, stack_);
+    TransformStep closed_form(bones_, packed_.pose_count(), TransformSolver::kClosedForm, 1, team_);
+    for (int round = 0; round < kRigidRounds; ++round) {
+      weight_step_.Gather(stack_, weights_, moments_);
+      energy_ = closed_form.Solve(pattern_, moments_, stack_);
+    }
     next_ = stack_;
     return Rmse(energy_);
   }
 
-  Alternation Alternate() {
+  // Weights at the joint step's transforms, or at the last ones if that raises the energy; then
+  // transforms for these weights, and a joint step for the next time. False if neither lowers the
+  // energy: all is as it was.
+  bool Alternate(Alternation& done) {
     const Stopwatch watch;
-    Alternation result;
     kept_weights_ = weights_;
-    weight_step_.Solve(next_, weights_, moments_);
-    result.extrapolated = joint_ && moments_.energy <= energy_;
-    if (joint_ && !result.extrapolated) {
-      weights_ = kept_weights_;
-      next_ = stack_;
-      weight_step_.Solve(next_, weights_, moments_);
-      damping_ = std::min(damping_ * 10.0, 1e3);
-    } else if (joint_) {
-      damping_ = std::max(damping_ / 4.0, 1e-6);
+    done.jointly = has_joint_step_ && TakeWeightsAt(next_);
+    if (has_joint_step_) {
+      damping_ = done.jointly ? std::max(damping_ / kDampingFall, kLeastDamping)
+                              : std::min(damping_ * kDampingRise, kMostDamping);
     }
-    stack_ = next_;
+    if (!done.jointly && !TakeWeightsAt(stack_)) return false;
     pattern_.Analyse(moments_.second);
-    joint_ = settings_.joint_iterations > 0;
-    if (joint_) joint_step_.Solve(pattern_, moments_, weights_, stack_, damping_, next_);
+    has_joint_step_ = settings_.joint_iterations > 0;
+    if (has_joint_step_) {
+      joint_step_.Solve(pattern_, moments_, weights_, stack_, damping_, next_);
+    }
     energy_ = transform_step_.Solve(pattern_, moments_, stack_);
-    if (!joint_) next_ = stack_;
-    result.rmse_m = Rmse(energy_);
-    result.time_ms = watch.ElapsedMs();
-    return result;
+    done.rmse_m = Rmse(energy_);
+    done.time_ms = watch.ElapsedMs();
+    return true;
+  }
+
+  // Transforms for these weights, as good as they get.
+  void FitTransformsTo(const SkinWeights& weights) {
+    for (int row = 0; row < packed_.vertex_count(); ++row) {
+      weights_.bones[row] = weights.bones[packed_.VertexOfRow(row)];
+      weights_.weights[row] = weights.weights[packed_.VertexOfRow(row)];
+    }
+    weight_step_.Gather(stack_, weights_, moments_);
+    pattern_.Analyse(moments_.second);
+    TransformStep(bones_, packed_.pose_count(), TransformSolver::kLinearised, kManyTransformSteps,
+                  team_)
+        .Solve(pattern_, moments_, stack_);
   }
 
   double MeasuredRmse() {
@@ -125,8 +146,21 @@ class Alternator {
     return std::sqrt(std::max(energy, 0.0) / places);
   }
 
+  // The best weights at these transforms; false, and nothing is changed, if the energy is not lower
+  // than it was.
+  bool TakeWeightsAt(const BoneStack& stack) {
+    weight_step_.Solve(stack, weights_, moments_);
+    if (moments_.energy > energy_) {
+      weights_ = kept_weights_;
+      return false;
+    }
+    stack_ = stack;
+    return true;
+  }
+
   const Settings settings_;
   int bones_;
+  WorkerTeam team_;
   PackedExamples packed_;
   std::vector<std::uint8_t> label_of_row_;
   RowWeights weights_, kept_weights_;
@@ -136,9 +170,9 @@ class Alternator {
   BonePattern pattern_;
   SkinMoments moments_;
   BoneStack stack_;  // belongs to weights_ and energy_
-  BoneStack next_;   // where the next alternation goes out from
-  bool joint_ = false;
-  double damping_ = 1e-2;
+  BoneStack next_;   // after the joint step
+  bool has_joint_step_ = false;
+  double damping_ = kFirstDamping;
   double energy_ = 0.0;
 };
 
@@ -161,7 +195,11 @@ Decomposition Decompose(const Examples& examples, const Labels& labels, const Bo
   Decomposition result;
   result.rmse_m = result.start_rmse_m = alternator.FitRigidPieces();
   for (int i = 0; i < settings.alternations; ++i) {
-    const Alternation done = alternator.Alternate();
+    Alternation done;
+    if (!alternator.Alternate(done)) {
+      result.ending = Ending::kConverged;
+      break;
+    }
     result.alternations.push_back(done);
     const double gain = result.rmse_m - done.rmse_m;
     result.rmse_m = done.rmse_m;
@@ -174,6 +212,24 @@ Decomposition Decompose(const Examples& examples, const Labels& labels, const Bo
   result.weights = alternator.Weights();
   result.poses = alternator.Poses();
   return result;
+}
+
+FittedTransforms FitTransforms(const Examples& examples, const SkinWeights& weights, int bone_count,
+                               int threads) {
+  const std::string problem = ExamplesProblem(examples);
+  Require(problem.empty(), "FitTransforms: {}", problem);
+  const std::string weights_problem = WeightsProblem(weights, examples.rest.size(), bone_count);
+  Require(weights_problem.empty(), "FitTransforms: {}", weights_problem);
+  BoneGraph own(bone_count);
+  for (int b = 0; b < bone_count; ++b) own[b] = {static_cast<std::uint8_t>(b)};
+  Settings settings;
+  settings.threads = threads;
+  settings.joint_iterations = 0;
+  Alternator alternator(examples, HeaviestBones(weights), own, settings);
+  alternator.FitRigidPieces();
+  alternator.FitTransformsTo(weights);
+  const double rmse_m = alternator.MeasuredRmse();
+  return {alternator.Poses(), rmse_m};
 }
 
 }  // namespace vitruvia::skinning

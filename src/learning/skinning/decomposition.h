@@ -12,7 +12,7 @@
 namespace vitruvia::skinning {
 
 enum class Ending {
-  kConverged,         // an alternation gained less than asked for
+  kConverged,         // an alternation gained less than asked for, or nothing that floats can tell
   kAlternationLimit,  // all alternations were carried out
 };
 const char* Name(Ending ending);
@@ -20,7 +20,7 @@ const char* Name(Ending ending);
 struct Alternation {
   double rmse_m = 0.0;  // root mean square distance of a vertex from its place, at its end
   double time_ms = 0.0;
-  bool extrapolated = false;  // it went out from extrapolated transforms, and was the better for it
+  bool jointly = false;  // it went out from a joint step (joint_step.h), and was the better for it
 };
 
 struct Decomposition {
@@ -37,5 +37,13 @@ struct Decomposition {
 // ExamplesProblem() or LabelsProblem() has a complaint.
 Decomposition Decompose(const Examples& examples, const Labels& labels, const BoneGraph& candidates,
                         const Settings& settings);
+
+// The bones' transforms for weights that are given, those of another subject for instance.
+struct FittedTransforms {
+  std::vector<BoneTransforms> poses;  // P × B, posed_from_rest
+  double rmse_m = 0.0;
+};
+FittedTransforms FitTransforms(const Examples& examples, const SkinWeights& weights, int bone_count,
+                               int threads);
 
 }  // namespace vitruvia::skinning

@@ -1,16 +1,15 @@
 #include "learning/skinning/joint_step.h"
 
 #include <array>
+#include <atomic>
 
-#include <Eigen/Cholesky>
-
-#include "core/parallel.h"
-#include "math/rigid.h"
+#include <Eigen/LU>
 
 namespace vitruvia::skinning {
 namespace {
 
-constexpr int kChunks = 16;  // of vertices, of poses and of bones; sums are added in their order
+constexpr int kChunks = 16;  // of vertices; sums are kept per chunk and added in their order
+constexpr int kPosesPerRange = 8, kBonesPerRange = 8;  // that a thread takes at a time
 constexpr int kMostFree = kMaxInfluences - 1;
 
 // Weights whose effect on the places is smaller, relative to the places themselves, undo nothing.
@@ -32,17 +31,20 @@ struct JointStep::VertexTerms {
   std::array<double, kMaxInfluences> weights;
   Eigen::Vector4d point;
   Eigen::Matrix<double, kMostFree, kMostFree> inverse;  // of AᵀA
+
+  void SetUpInverse(const Eigen::MatrixXd& products);
+  void AddUndone(const Eigen::MatrixXd& products, Eigen::MatrixXd& undone) const;
 };
 
 struct JointStep::Chunk {
   Eigen::MatrixXd undone;
 };
 
-JointStep::JointStep(const PackedExamples& examples, int bones, int iterations, int threads)
+JointStep::JointStep(const PackedExamples& examples, int bones, int iterations, WorkerTeam& team)
     : examples_(examples),
       bones_(bones),
       iterations_(iterations),
-      threads_(threads),
+      team_(team),
       equations_(examples.pose_count()),
       chunks_(kChunks, Chunk{Eigen::MatrixXd(4 * bones, 4 * bones)}),
       products_(4 * bones, 4 * bones),
@@ -68,99 +70,105 @@ void JointStep::SetUpTerms(const RowWeights& weights, const BoneStack& stack) {
       term.bones[term.size] = weights.bones[row][term.size];
       term.weights[term.size] = weights.weights[row][term.size];
     }
-    Eigen::Matrix4d gram;
-    for (int a = 0; a < term.size; ++a) {
-      for (int b = 0; b < term.size; ++b) {
-        gram(a, b) = term.point.dot(products_.block<4, 4>(4 * term.bones[a], 4 * term.bones[b]) *
-                                    term.point);
-      }
-    }
-    Eigen::Matrix3d effect = Eigen::Matrix3d::Identity();
-    const int free = term.size - 1;
-    for (int a = 0; a < free; ++a) {
-      for (int b = 0; b < free; ++b) {
-        effect(a, b) = gram(a + 1, b + 1) - gram(a + 1, 0) - gram(0, b + 1) + gram(0, 0);
-      }
-      effect(a, a) += kLeastEffect * gram(0, 0);
-    }
-    term.inverse = effect.inverse();
+    term.SetUpInverse(products_);
   }
+}
+
+// products: of the stack with itself.
+void JointStep::VertexTerms::SetUpInverse(const Eigen::MatrixXd& products) {
+  Eigen::Matrix4d gram;
+  for (int a = 0; a < size; ++a) {
+    for (int b = 0; b < size; ++b) {
+      gram(a, b) = point.dot(products.block<4, 4>(4 * bones[a], 4 * bones[b]) * point);
+    }
+  }
+  Eigen::Matrix3d effect = Eigen::Matrix3d::Identity();
+  for (int a = 0; a + 1 < size; ++a) {
+    for (int b = 0; b + 1 < size; ++b) {
+      effect(a, b) = gram(a + 1, b + 1) - gram(a + 1, 0) - gram(0, b + 1) + gram(0, 0);
+    }
+    effect(a, a) += kLeastEffect * gram(0, 0);
+  }
+  inverse = effect.inverse();
 }
 
 bool JointStep::Prepare(const BonePattern& pattern, const SkinMoments& moments,
                         const RowWeights& weights, const BoneStack& stack, double damping) {
   SetUpTerms(weights, stack);
-  std::array<bool, kChunks> good;
-  good.fill(true);
-  const int poses = PoseCount(stack);
-  ParallelFor(kChunks, threads_, [&](int begin, int end) {
-    for (int chunk = begin; chunk < end; ++chunk) {
-      for (int p = ChunkBegin(poses, chunk); p < ChunkBegin(poses, chunk + 1); ++p) {
-        equations_[p].Linearise(pattern, moments.second, stack.middleCols<3>(3 * p));
-        equations_[p].Diagonal(pattern, diagonal_.col(p));
-        good[chunk] = equations_[p].Factor(pattern, damping) && good[chunk];
-        Adjoint(stack.middleCols<3>(3 * p), moments.cross.middleCols<3>(3 * p), residual_.col(p));
-      }
+  std::atomic<bool> good = true;
+  team_.For(PoseCount(stack), kPosesPerRange, [&](int begin, int end) {
+    for (int p = begin; p < end; ++p) {
+      equations_[p].Linearise(pattern, moments.second, stack.middleCols<3>(3 * p));
+      equations_[p].Diagonal(pattern, diagonal_.col(p));
+      if (!equations_[p].Factor(pattern, damping)) good = false;
+      Adjoint(stack.middleCols<3>(3 * p), moments.cross.middleCols<3>(3 * p), residual_.col(p));
     }
   });
-  return std::find(good.begin(), good.end(), false) == good.end();
+  return good;
 }
 
-void JointStep::Multiply(const SkinMoments& moments, const BoneStack& stack, double damping,
-                         const Steps& steps) {
-  const int poses = PoseCount(stack);
-  ParallelFor(kChunks, threads_, [&](int begin, int end) {
-    for (int p = ChunkBegin(poses, begin); p < ChunkBegin(poses, end); ++p) {
-      Differential(stack.middleCols<3>(3 * p), steps.col(p), change_.middleCols<3>(3 * p));
+// undone += Σ_ab w_b amount_a ṽ ṽᵀ: of the places' change, the part that weights undo, as seen by
+// the bones b through u_i.
+void JointStep::VertexTerms::AddUndone(const Eigen::MatrixXd& products,
+                                       Eigen::MatrixXd& undone) const {
+  // How far each bone's place goes along with the change, summed over poses.
+  Eigen::Vector4d along = Eigen::Vector4d::Zero();
+  for (int a = 0; a < size; ++a) {
+    Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+    for (int b = 0; b < size; ++b) {
+      sum += weights[b] * (products.block<4, 4>(4 * bones[a], 4 * bones[b]) * point);
     }
+    along[a] = point.dot(sum);
+  }
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  for (int a = 1; a < size; ++a) gradient[a - 1] = along[a] - along[0];
+  const Eigen::Vector3d shares = inverse * gradient;
+  Eigen::Vector4d amounts = Eigen::Vector4d::Zero();
+  for (int a = 1; a < size; ++a) {
+    amounts[a] = shares[a - 1];
+    amounts[0] -= shares[a - 1];
+  }
+  const Eigen::Matrix4d outer = point * point.transpose();
+  for (int a = 0; a < size; ++a) {
+    for (int b = 0; b < size; ++b) {
+      undone.block<4, 4>(4 * bones[b], 4 * bones[a]) += (weights[b] * amounts[a]) * outer;
+    }
+  }
+}
+
+// undone_ from change_.
+void JointStep::GatherUndone(const BoneStack& stack) {
+  team_.For(bones_, kBonesPerRange, [&](int begin, int end) {
+    products_.middleRows(4 * begin, 4 * (end - begin)).noalias() =
+        stack.middleRows(4 * begin, 4 * (end - begin)) * change_.transpose();
   });
-  ParallelFor(kChunks, threads_, [&](int begin, int end) {
-    const int first = 4 * ChunkBegin(bones_, begin), last = 4 * ChunkBegin(bones_, end);
-    products_.middleRows(first, last - first).noalias() =
-        stack.middleRows(first, last - first) * change_.transpose();
-  });
-  ParallelFor(kChunks, threads_, [&](int begin, int end) {
+  team_.For(kChunks, 1, [&](int begin, int end) {
     for (int chunk = begin; chunk < end; ++chunk) {
-      Eigen::MatrixXd& undone = chunks_[chunk].undone;
-      undone.setZero();
+      chunks_[chunk].undone.setZero();
       const int count = static_cast<int>(terms_.size());
       for (int i = ChunkBegin(count, chunk); i < ChunkBegin(count, chunk + 1); ++i) {
-        const VertexTerms& term = terms_[i];
-        std::array<double, kMaxInfluences> effects{};
-        for (int a = 0; a < term.size; ++a) {
-          Eigen::Vector4d sum = Eigen::Vector4d::Zero();
-          for (int b = 0; b < term.size; ++b) {
-            sum += term.weights[b] *
-                   (products_.block<4, 4>(4 * term.bones[a], 4 * term.bones[b]) * term.point);
-          }
-          effects[a] = term.point.dot(sum);
-        }
-        Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-        for (int a = 1; a < term.size; ++a) gradient[a - 1] = effects[a] - effects[0];
-        const Eigen::Vector3d shares = term.inverse * gradient;
-        Eigen::Vector4d amounts = Eigen::Vector4d::Zero();
-        for (int a = 1; a < term.size; ++a) {
-          amounts[a] = shares[a - 1];
-          amounts[0] -= shares[a - 1];
-        }
-        const Eigen::Matrix4d outer = term.point * term.point.transpose();
-        for (int a = 0; a < term.size; ++a) {
-          for (int b = 0; b < term.size; ++b) {
-            undone.block<4, 4>(4 * term.bones[b], 4 * term.bones[a]) +=
-                (term.weights[b] * amounts[a]) * outer;
-          }
-        }
+        terms_[i].AddUndone(products_, chunks_[chunk].undone);
       }
     }
   });
   undone_.setZero();
   for (const Chunk& chunk : chunks_) undone_ += chunk.undone;
-  ParallelFor(kChunks, threads_, [&](int begin, int end) {
-    const int first = 3 * ChunkBegin(poses, begin), last = 3 * ChunkBegin(poses, end);
-    auto pull = pull_.middleCols(first, last - first);
-    pull.noalias() = moments.second * change_.middleCols(first, last - first);
-    pull.noalias() -= undone_ * stack.middleCols(first, last - first);
-    for (int p = first / 3; p < last / 3; ++p) {
+}
+
+void JointStep::Multiply(const SkinMoments& moments, const BoneStack& stack, double damping,
+                         const Steps& steps) {
+  const int poses = PoseCount(stack);
+  team_.For(poses, kPosesPerRange, [&](int begin, int end) {
+    for (int p = begin; p < end; ++p) {
+      Differential(stack.middleCols<3>(3 * p), steps.col(p), change_.middleCols<3>(3 * p));
+    }
+  });
+  GatherUndone(stack);
+  team_.For(poses, kPosesPerRange, [&](int begin, int end) {
+    auto pull = pull_.middleCols(3 * begin, 3 * (end - begin));
+    pull.noalias() = moments.second * change_.middleCols(3 * begin, 3 * (end - begin));
+    pull.noalias() -= undone_ * stack.middleCols(3 * begin, 3 * (end - begin));
+    for (int p = begin; p < end; ++p) {
       Adjoint(stack.middleCols<3>(3 * p), pull_.middleCols<3>(3 * p), product_.col(p));
       product_.col(p) += damping * diagonal_.col(p).cwiseProduct(steps.col(p));
     }
@@ -169,7 +177,7 @@ void JointStep::Multiply(const SkinMoments& moments, const BoneStack& stack, dou
 
 void JointStep::Precondition(const BonePattern& pattern) {
   preconditioned_ = residual_;
-  ParallelFor(static_cast<int>(residual_.cols()), threads_, [&](int begin, int end) {
+  team_.For(static_cast<int>(residual_.cols()), kPosesPerRange, [&](int begin, int end) {
     for (int p = begin; p < end; ++p) equations_[p].SolveInPlace(pattern, preconditioned_.col(p));
   });
 }

@@ -12,6 +12,7 @@
 
 #include <vector>
 
+#include "core/worker_team.h"
 #include "learning/skinning/packed_examples.h"
 #include "learning/skinning/pose_equations.h"
 #include "learning/skinning/weight_step.h"
@@ -20,7 +21,7 @@ namespace vitruvia::skinning {
 
 class JointStep {
  public:
-  JointStep(const PackedExamples& examples, int bones, int iterations, int threads);
+  JointStep(const PackedExamples& examples, int bones, int iterations, WorkerTeam& team);
   ~JointStep();
 
   // `moments` and `weights` belong to `stack`, and the weights are the best for it. Replaces `next`
@@ -38,10 +39,12 @@ class JointStep {
   void SetUpTerms(const RowWeights& weights, const BoneStack& stack);
   void Multiply(const SkinMoments& moments, const BoneStack& stack, double damping,
                 const Steps& steps);
+  void GatherUndone(const BoneStack& stack);
   void Precondition(const BonePattern& pattern);
 
   const PackedExamples& examples_;
-  int bones_, iterations_, threads_;
+  int bones_, iterations_;
+  WorkerTeam& team_;
   std::vector<PoseEquations> equations_;  // per pose
   std::vector<VertexTerms> terms_;        // of vertices with two influences or more
   std::vector<Chunk> chunks_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/parallel.h"
 #include "math/rigid.h"
 
 namespace vitruvia::skinning {
@@ -94,10 +93,11 @@ double TransformStep::Workspace::SolveLinearised(const BonePattern& pattern,
   return gain;
 }
 
-TransformStep::TransformStep(int bones, int poses, TransformSolver solver, int steps, int threads)
+TransformStep::TransformStep(int bones, int poses, TransformSolver solver, int steps,
+                             WorkerTeam& team)
     : solver_(solver),
       steps_(steps),
-      threads_(threads),
+      team_(team),
       workspaces_(std::min(kChunks, poses), Workspace(bones)),
       gains_(poses) {}
 
@@ -106,7 +106,7 @@ TransformStep::~TransformStep() = default;
 double TransformStep::Solve(const BonePattern& pattern, const SkinMoments& moments,
                             BoneStack& stack) {
   const int chunks = static_cast<int>(workspaces_.size()), poses = PoseCount(stack);
-  ParallelFor(chunks, threads_, [&](int begin, int end) {
+  team_.For(chunks, 1, [&](int begin, int end) {
     for (int chunk = begin; chunk < end; ++chunk) {
       Workspace& work = workspaces_[chunk];
       for (int p = poses * chunk / chunks; p < poses * (chunk + 1) / chunks; ++p) {

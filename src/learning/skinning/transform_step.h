@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "core/worker_team.h"
 #include "learning/skinning/pose_equations.h"
 #include "learning/skinning/settings.h"
 
@@ -13,7 +14,7 @@ namespace vitruvia::skinning {
 
 class TransformStep {
  public:
-  TransformStep(int bones, int poses, TransformSolver solver, int steps, int threads);
+  TransformStep(int bones, int poses, TransformSolver solver, int steps, WorkerTeam& team);
   ~TransformStep();
 
   // Moves the transforms so that the energy of `moments`, taken at `stack`, does not rise; returns
@@ -24,7 +25,8 @@ class TransformStep {
   struct Workspace;
 
   TransformSolver solver_;
-  int steps_, threads_;
+  int steps_;
+  WorkerTeam& team_;
   std::vector<Workspace> workspaces_;
   std::vector<double> gains_;  // per pose
 };

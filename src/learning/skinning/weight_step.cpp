@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "core/parallel.h"
 #include "learning/skinning/simplex_qp.h"
 
 // Every product of a vertex's places under two bones, summed over all poses, is a quadratic form in
@@ -149,12 +148,12 @@ CandidateWeights Spread(const RowWeights& weights, int row,
 }  // namespace
 
 WeightStep::WeightStep(const PackedExamples& examples, std::vector<std::uint8_t> label_of_row,
-                       BoneGraph candidates, int influences, int threads)
+                       BoneGraph candidates, int influences, WorkerTeam& team)
     : examples_(examples),
       label_of_row_(std::move(label_of_row)),
       candidates_(std::move(candidates)),
       influences_(influences),
-      threads_(threads),
+      team_(team),
       chunks_(kChunks) {
   Require(influences >= 1 && influences <= kMaxInfluences, "WeightStep: {} influences", influences);
   const int bones = static_cast<int>(candidates_.size());
@@ -191,7 +190,7 @@ int WeightStep::ChunkBegin(int chunk) const {
 
 void WeightStep::Solve(const BoneStack& stack, RowWeights& weights, SkinMoments& moments) {
   Prepare(stack);
-  ParallelFor(kChunks, threads_, [&](int begin, int end) {
+  team_.For(kChunks, 1, [&](int begin, int end) {
     for (int c = begin; c < end; ++c) {
       chunks_[c].SetZero();
       for (int row = ChunkBegin(c); row < ChunkBegin(c + 1); ++row) {
@@ -205,7 +204,7 @@ void WeightStep::Solve(const BoneStack& stack, RowWeights& weights, SkinMoments&
 
 void WeightStep::Gather(const BoneStack& stack, const RowWeights& weights, SkinMoments& moments) {
   Prepare(stack);
-  ParallelFor(kChunks, threads_, [&](int begin, int end) {
+  team_.For(kChunks, 1, [&](int begin, int end) {
     for (int c = begin; c < end; ++c) {
       chunks_[c].SetZero();
       for (int row = ChunkBegin(c); row < ChunkBegin(c + 1); ++row) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/worker_team.h"
 #include "learning/skinning/bone_stack.h"
 #include "learning/skinning/labels.h"
 #include "learning/skinning/packed_examples.h"
@@ -18,7 +19,7 @@ class WeightStep {
   // Every row chooses among candidates[its label], at most kMaxCandidates bones, and gets at most
   // `influences` (≤ kMaxInfluences) of them. `examples` must outlive this.
   WeightStep(const PackedExamples& examples, std::vector<std::uint8_t> label_of_row,
-             BoneGraph candidates, int influences, int threads);
+             BoneGraph candidates, int influences, WorkerTeam& team);
   ~WeightStep();
 
   // Replaces the weights of each vertex by the best among its candidates, and gathers the moments
@@ -40,7 +41,8 @@ class WeightStep {
   const PackedExamples& examples_;
   std::vector<std::uint8_t> label_of_row_;
   BoneGraph candidates_;
-  int influences_, threads_;
+  int influences_;
+  WorkerTeam& team_;
   // 4B × stride, padded as the rows are.
   Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> stack_;
   Eigen::MatrixXd product_;             // stack · stackᵀ, 4B × 4B
