@@ -60,15 +60,16 @@ void PoseSettings::Describe(Fields& f) {
            {.meaning = "λ of the damped least squares, per rad² and m² of a joint",
             .min = 0,
             .max = 1e9,
-            .origin = Origin::kGuessed,
-            .source = "paper B is silent"});
+            .origin = Origin::kTuned,
+            .source = "paper B is silent; 0.002 … 0.01 do alike on dynamic_far"});
   f.Number("default_pose_weight", default_pose_weight,
            {.meaning = "γ: draws each joint to its default 0, times the number of vertices that "
                        "it moves",
             .min = 0,
             .max = 1e9,
-            .origin = Origin::kGuessed,
-            .source = "paper B is silent"});
+            .origin = Origin::kTuned,
+            .source = "paper B is silent; on 80 frames of dynamic_far the elbows are off by 91 mm "
+                      "at most at 1e-5, by 21 at 1e-6, and all joints more again at 1e-7"});
   f.Number("held_below_share", held_below_share,
            {.meaning = "a joint is held, not solved, while a smaller share of the vertices that it "
                        "moves was chosen by points",

@@ -27,8 +27,8 @@ struct AssociationSettings {
 struct PoseSettings {
   int iterations = 10;
   int first_frame_iterations = 30;
-  double damping = 0.05;
-  double default_pose_weight = 1e-5;
+  double damping = 0.01;
+  double default_pose_weight = 1e-6;
   double held_below_share = 0.01;
   double rotation_step_deg = 0.0;
   double translation_step_m = 0.0;

@@ -1,0 +1,150 @@
+#include "methods/dynamic/association.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "dynamic_fixtures.h"
+
+namespace vitruvia::dynamic {
+namespace {
+
+const PinholeCamera kCamera{64, 48, 50.0, 55.0, 30.2, 25.1};
+
+SkinWeights OneBone(int vertices) {
+  SkinWeights weights;
+  weights.bones.assign(vertices, {0, 0, 0, 0});
+  weights.weights.assign(vertices, {1.0f, 0.0f, 0.0f, 0.0f});
+  return weights;
+}
+
+// Random vertices in the camera's frame; some in the same places, some looking away.
+struct Cloudy {
+  explicit Cloudy(std::uint64_t seed, int count)
+      : surface(OneBone(count), std::vector<Vector3f>(count, Vector3f::Zero()),
+                std::vector<Vector3f>(count, -Vector3f::UnitZ())) {
+    RandomStream random(seed, "association");
+    for (int slot = 0; slot < surface.layout.slot_count(); ++slot) {
+      if (surface.layout.vertex_of_slot[slot] < 0) continue;
+      Vector3f p(static_cast<float>(random.Uniform(-0.9, 0.9)),
+                 static_cast<float>(random.Uniform(-0.6, 0.6)),
+                 static_cast<float>(random.Uniform(0.8, 1.6)));
+      if (slot > 0 && random.Index(10) == 0) p = surface.posed.At(slot - 1);
+      surface.posed.Set(slot, p);
+      surface.normals.Set(slot, Vector3f(0.0f, 0.0f, random.Index(4) == 0 ? 1.0f : -1.0f));
+    }
+    for (int v = 0; v < kCamera.height; v += 2) {
+      for (int u = 0; u < kCamera.width; u += 3) {
+        const auto z = static_cast<float>(random.Uniform(0.8, 1.6));
+        cloud.points.push_back(kCamera.Unproject(static_cast<float>(u), static_cast<float>(v), z));
+        cloud.pixels.push_back(v * kCamera.width + u);
+      }
+    }
+  }
+
+  Surface<float> surface;
+  PointCloud cloud;
+};
+
+int PixelOf(const Vector3f& p) {
+  const auto pixel = kCamera.Project(p);
+  const int u = static_cast<int>(std::floor(pixel.x() + 0.5f));
+  const int v = static_cast<int>(std::floor(pixel.y() + 0.5f));
+  if (u < 0 || v < 0 || u >= kCamera.width || v >= kCamera.height) return -1;
+  return v * kCamera.width + u;
+}
+
+// Every vertex that faces the camera, in the window and within the cutoff, one after the other.
+int BruteForce(const Cloudy& c, const Vector3f& point, int pixel, const AssociationLimits& limits) {
+  int best = -1;
+  float best_squared = limits.cutoff_m * limits.cutoff_m;
+  for (int slot = 0; slot < c.surface.layout.slot_count(); ++slot) {
+    if (c.surface.layout.vertex_of_slot[slot] < 0) continue;
+    const Vector3f p = c.surface.posed.At(slot);
+    const float cosine = -c.surface.normals.At(slot).dot(p) / p.norm();
+    const int at = PixelOf(p);
+    if (!(cosine > limits.facing_cosine) || at < 0) continue;
+    const int columns = std::abs(at % kCamera.width - pixel % kCamera.width);
+    const int rows = std::abs(at / kCamera.width - pixel / kCamera.width);
+    if (std::max(columns, rows) > limits.window_px) continue;
+    const float dx = p.x() - point.x(), dy = p.y() - point.y(), dz = p.z() - point.z();
+    const float squared = dx * dx + dy * dy + dz * dz;
+    if (squared < best_squared) {
+      best_squared = squared;
+      best = slot;
+    }
+  }
+  return best;
+}
+
+TEST(Association, FindsWhatBruteForceFinds) {
+  WorkerTeam team(2);
+  for (const int count : {0, 1, 60, 3000}) {
+    for (const int window : {0, 1, 3, 12, 100}) {
+      for (const float cutoff : {0.02f, 0.1f, 5.0f}) {
+        const Cloudy c(static_cast<std::uint64_t>(count + window), count);
+        const AssociationLimits limits{window, cutoff, 0.2f};
+        Association association(kCamera, c.surface.layout);
+        for (const Patch& patch : c.surface.layout.patches) {
+          association.ProjectPatch(patch, c.surface, limits);
+        }
+        association.FillBuckets(c.surface);
+        association.FindNearest(c.cloud, limits, team);
+        for (std::size_t i = 0; i < c.cloud.points.size(); ++i) {
+          ASSERT_EQ(association.nearest()[i],
+                    BruteForce(c, c.cloud.points[i], c.cloud.pixels[i], limits))
+              << "point " << i << " of " << count << " vertices, window " << window << ", cutoff "
+              << cutoff;
+        }
+      }
+    }
+  }
+}
+
+TEST(Association, AveragesThePointsThatChoseAVertex) {
+  const Cloudy c(9, 50);
+  const AssociationLimits limits{100, 5.0f, 0.2f};
+  Association association(kCamera, c.surface.layout);
+  for (const Patch& patch : c.surface.layout.patches) {
+    association.ProjectPatch(patch, c.surface, limits);
+  }
+  association.FillBuckets(c.surface);
+  WorkerTeam team(1);
+  association.FindNearest(c.cloud, limits, team);
+  Observations<float> observations;
+  association.Observe(c.cloud, observations);
+  int chosen = 0;
+  for (int slot = 0; slot < c.surface.layout.slot_count(); ++slot) {
+    Vector3d sum = Vector3d::Zero();
+    int count = 0;
+    for (std::size_t i = 0; i < c.cloud.points.size(); ++i) {
+      if (association.nearest()[i] != slot) continue;
+      sum += c.cloud.points[i].cast<double>();
+      ++count;
+    }
+    EXPECT_EQ(observations.Count(slot), static_cast<float>(count));
+    if (count == 0) continue;
+    ++chosen;
+    EXPECT_LT((observations.Mean(slot).cast<double>() - sum / count).norm(), 1e-5);
+  }
+  EXPECT_GT(chosen, 10);
+}
+
+TEST(Association, LeavesOutWhatIsNotBeforeTheCamera) {
+  Surface<float> surface(OneBone(4), std::vector<Vector3f>(4, Vector3f::Zero()),
+                         std::vector<Vector3f>(4, -Vector3f::UnitZ()));
+  for (int slot = 0; slot < 4; ++slot) surface.normals.Set(slot, -Vector3f::UnitZ());
+  surface.posed.Set(0, {0.0f, 0.0f, 1.0f});
+  surface.posed.Set(1, {0.0f, 0.0f, -1.0f});  // behind
+  surface.posed.Set(2, {9.0f, 0.0f, 1.0f});   // out of view
+  surface.posed.Set(3, {0.0f, 0.0f, 0.0f});   // no direction at all
+  Association association(kCamera, surface.layout);
+  association.ProjectPatch(surface.layout.patches[0], surface, {});
+  EXPECT_EQ(association.pixels()[0], 25 * kCamera.width + 30);
+  for (int slot = 1; slot < surface.layout.slot_count(); ++slot) {
+    EXPECT_EQ(association.pixels()[slot], -1) << slot;
+  }
+}
+
+}  // namespace
+}  // namespace vitruvia::dynamic

@@ -1,0 +1,276 @@
+// The tracker as a whole, on depth drawn by the z-buffer, and the solver of its pose step.
+#include "methods/dynamic/dynamic.h"
+
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "dynamic_fixtures.h"
+#include "geometry/zbuffer.h"
+#include "methods/dynamic/pose_solver.h"
+#include "synth/bodies/body_source.h"
+
+namespace vitruvia::dynamic {
+namespace {
+
+BodyModel Mannequin() {
+  RefinementSettings refinement;
+  refinement.subdivisions = 2;  // about 6,400 vertices: as dense as a small image's pixels
+  return Refine(MakeControlBody(BodySettings{}), refinement);
+}
+
+// A mannequin with its left arm lowered and its right elbow bent by some angle, before the camera.
+class Stage {
+ public:
+  std::vector<Vector3f> Vertices(double angle_rad) const {
+    JointPose pose = JointPose::Rest(body.skeleton);
+    const auto turn = [&](BoneId bone, const Vector3d& axis) {
+      pose.local_rotations[static_cast<int>(bone)] = ExpSo3<double>(angle_rad * axis);
+    };
+    turn(BoneId::kLeftUpperArm, -Vector3d::UnitZ());
+    turn(BoneId::kRightForearm, Vector3d::UnitY());
+    BoneTransforms bones = ForwardKinematics(body.skeleton, pose);
+    for (Rigidd& bone : bones) bone = CameraFromStart() * bone;
+    std::vector<Vector3f> vertices;
+    SkinDualQuaternion(body.rest.vertices, body.weights, bones, vertices);
+    return vertices;
+  }
+
+  DepthFrame Frame(int index, double angle_rad) {
+    return {index, index / 30.0, zbuffer.Render(Vertices(angle_rad), body.rest.triangles)};
+  }
+
+  double MeanError(const TrackResult& result, double angle_rad) const {
+    const std::vector<Vector3f> truth = Vertices(angle_rad);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < truth.size(); ++i) sum += (truth[i] - result.vertices[i]).norm();
+    return sum / static_cast<double>(truth.size());
+  }
+
+  const BodyModel body = Mannequin();
+  const PinholeCamera camera;
+  ZBuffer zbuffer{camera};
+};
+
+TEST(Dynamic, FollowsAMovingArmInEveryMode) {
+  for (const Mode mode : {Mode::kFull, Mode::kShapeMatch, Mode::kSmoothBind, Mode::kRigid}) {
+    Stage stage;
+    Settings settings;
+    settings.mode = mode;
+    Dynamic tracker(settings, HumanSkeleton());
+    tracker.Start(stage.body, stage.camera);
+    for (int i = 0; i <= 15; ++i) {
+      const double angle = 0.04 * i;  // 1.2 rad/s
+      const TrackResult result = tracker.TrackFrame(stage.Frame(i, angle));
+      EXPECT_FALSE(IsFailure(result.outcome)) << result.message;
+      EXPECT_EQ(result.vertices.size(), stage.body.rest.vertices.size());
+      EXPECT_LT(stage.MeanError(result, angle), mode == Mode::kRigid ? 0.02 : 0.01)
+          << "mode " << static_cast<int>(mode) << ", frame " << i;
+    }
+  }
+}
+
+TEST(Dynamic, FollowsOnASubsetOfVerticesAndPixels) {
+  Stage stage;
+  Settings settings;
+  settings.association.pose_vertex_stride = 4;
+  settings.association.pose_pixel_stride = 2;
+  Dynamic tracker(settings, HumanSkeleton());
+  tracker.Start(stage.body, stage.camera);
+  for (int i = 0; i <= 10; ++i) {
+    const TrackResult result = tracker.TrackFrame(stage.Frame(i, 0.04 * i));
+    EXPECT_LT(stage.MeanError(result, 0.04 * i), 0.015) << "frame " << i;
+  }
+}
+
+TEST(Dynamic, CarriesPoseAndShapeOverAnEmptyFrameAndGoesOn) {
+  Stage stage;
+  Dynamic tracker(Settings{}, HumanSkeleton());
+  tracker.Start(stage.body, stage.camera);
+  const TrackResult before = tracker.TrackFrame(stage.Frame(0, 0.0));
+  const TrackResult empty = tracker.TrackFrame({1, 1 / 30.0, DepthImage(320, 240)});
+  EXPECT_EQ(empty.outcome, Outcome::kNoData);
+  EXPECT_EQ(empty.iterations, 0);
+  EXPECT_EQ(empty.vertices, before.vertices);
+  const TrackResult after = tracker.TrackFrame(stage.Frame(2, 0.0));
+  EXPECT_FALSE(IsFailure(after.outcome)) << after.message;
+  EXPECT_LT(stage.MeanError(after, 0.0), 0.01);
+}
+
+TEST(Dynamic, SaysLostWhenTheDataAreElsewhere) {
+  Stage stage;
+  Dynamic tracker(Settings{}, HumanSkeleton());
+  tracker.Start(stage.body, stage.camera);
+  const TrackResult before = tracker.TrackFrame(stage.Frame(0, 0.0));
+  const TrackResult result = tracker.TrackFrame({1, 1 / 30.0, DepthImage(320, 240, 6.0f)});
+  EXPECT_EQ(result.outcome, Outcome::kLost);
+  EXPECT_NE(result.message.find("found a vertex"), std::string::npos);
+  for (std::size_t j = 0; j < result.joints.size(); ++j) {  // nothing seen: all joints held
+    EXPECT_EQ(result.joints[j], before.joints[j]);
+  }
+}
+
+TEST(Dynamic, HoldsWhatIsOutOfView) {
+  Stage stage;
+  Dynamic tracker(Settings{}, HumanSkeleton());
+  tracker.Start(stage.body, stage.camera);
+  TrackResult before = tracker.TrackFrame(stage.Frame(0, 0.3));
+  before = tracker.TrackFrame(stage.Frame(1, 0.3));
+  const int elbow = static_cast<int>(BoneId::kRightForearm);
+  DepthFrame cut = stage.Frame(2, 0.3);
+  const auto column = static_cast<int>(stage.camera.Project(before.joints[elbow]).x());
+  for (int v = 0; v < 240; ++v) {
+    for (int u = 0; u < column + 4; ++u) cut.depth(u, v) = 0.0f;  // the subject's right arm
+  }
+  const TrackResult after = tracker.TrackFrame(cut);
+  const auto local = [&](const TrackResult& r) -> Matrix3<double> {
+    return r.camera_from_rest[static_cast<int>(BoneId::kRightUpperArm)].rotation.transpose() *
+           r.camera_from_rest[elbow].rotation;
+  };
+  EXPECT_LT((local(after) - local(before)).norm(), 1e-12);
+}
+
+TEST(Dynamic, DoesNotDriftWhileABodyStands) {
+  Stage stage;
+  Dynamic tracker(Settings{}, HumanSkeleton());
+  tracker.Start(stage.body, stage.camera);
+  const DepthFrame frame = stage.Frame(0, 0.2);
+  for (int i = 0; i < 30; ++i) tracker.TrackFrame(frame);
+  const TrackResult early = tracker.TrackFrame(frame);
+  for (int i = 0; i < 100; ++i) tracker.TrackFrame(frame);
+  const TrackResult late = tracker.TrackFrame(frame);
+  for (std::size_t j = 0; j < late.joints.size(); ++j) {
+    EXPECT_LT((late.joints[j] - early.joints[j]).norm(), 2e-3) << j;
+  }
+}
+
+TEST(Dynamic, GivesTheSameResultOnOneThreadAndOnTwo) {
+  const auto run = [](int threads) {
+    Stage stage;
+    Settings settings;
+    settings.threads = threads;
+    Dynamic tracker(settings, HumanSkeleton());
+    tracker.Start(stage.body, stage.camera);
+    TrackResult result;
+    for (int i = 0; i < 4; ++i) result = tracker.TrackFrame(stage.Frame(i, 0.05 * i));
+    return result;
+  };
+  const TrackResult one = run(1), two = run(2);
+  EXPECT_EQ(one.vertices, two.vertices);
+  EXPECT_EQ(one.energies[0].value, two.energies[0].value);
+}
+
+TEST(Dynamic, IgnoresPixelsThatAreNoNumbers) {
+  Stage stage;
+  DepthFrame frame = stage.Frame(0, 0.1);
+  DepthFrame damaged = frame;
+  for (int u = 0; u < 320; u += 2) {
+    frame.depth(u, 20) = 0.0f;
+    damaged.depth(u, 20) = u % 4 == 0 ? std::numeric_limits<float>::quiet_NaN() : -1.0f;
+  }
+  Dynamic with_nan(Settings{}, HumanSkeleton()), without(Settings{}, HumanSkeleton());
+  with_nan.Start(stage.body, stage.camera);
+  without.Start(stage.body, stage.camera);
+  EXPECT_EQ(with_nan.TrackFrame(damaged).vertices, without.TrackFrame(frame).vertices);
+}
+
+TEST(Dynamic, RefusesWhatItCannotUse) {
+  Stage stage;
+  Dynamic tracker(Settings{}, HumanSkeleton());
+  EXPECT_THROW(tracker.TrackFrame(stage.Frame(0, 0.0)), std::invalid_argument);  // before Start
+  const auto message = [&](const BodyModel& body) -> std::string {
+    try {
+      tracker.Start(body, stage.camera);
+    } catch (const DataError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  BodyModel without_weights = stage.body;
+  without_weights.weights.weights[3] = {0.0f, 0.0f, 0.0f, 0.0f};
+  EXPECT_THAT(message(without_weights), testing::HasSubstr("vertex 3: weights sum to 0"));
+  BodyModel with_a_hole = stage.body;
+  with_a_hole.rest.triangles.pop_back();
+  EXPECT_THAT(message(with_a_hole), testing::HasSubstr("mesh"));
+  tracker.Start(stage.body, stage.camera);
+  EXPECT_THROW(tracker.TrackFrame({0, 0.0, DepthImage(64, 48)}), std::invalid_argument);
+}
+
+// ---- The pose step's solver ----
+
+struct SolverStage {
+  SolverStage()
+      : body(TinyBody()),
+        tree(HumanSkeleton(), body.skeleton),
+        solver(tree, body.weights),
+        may_move(tree.joint_count(), 1) {
+    RandomStream random(3, "solver");
+    Eigen::MatrixXd rows(2 * tree.joint_count(), tree.joint_count());
+    for (double& entry : rows.reshaped()) entry = random.Normal();
+    equations.hessian = rows.transpose() * rows;
+    equations.gradient = Eigen::VectorXd::Constant(tree.joint_count(), 0.01);
+    equations.observed.fill(1000);
+    theta = RandomTheta(tree, 0.01, 4);
+  }
+
+  BodyModel body;
+  KinematicTree tree;
+  PoseSolver solver;
+  PoseEquations equations;
+  std::vector<char> may_move;
+  Eigen::VectorXd theta;
+};
+
+TEST(PoseSolver, SolvesTheDampedEquationsWithTheDefaultPosePrior) {
+  SolverStage s;
+  const DampedStep step{0.3, 1e-3, 0.0};
+  Eigen::MatrixXd system = s.equations.hessian;
+  Eigen::VectorXd right = s.equations.gradient;
+  for (int k = 0; k < s.tree.joint_count(); ++k) {
+    const double d = s.tree.joints()[k].prior * s.solver.MovedVertices(k);
+    system(k, k) += step.damping + step.default_pose_weight * d;
+    right[k] += step.default_pose_weight * d * s.theta[k];
+  }
+  const Eigen::VectorXd expected = s.theta - system.inverse() * right;
+  s.solver.Step(s.tree, s.equations, s.may_move, step, s.theta);
+  EXPECT_TRUE(s.solver.solved());
+  EXPECT_LT((s.theta - expected).norm(), 1e-10);
+}
+
+TEST(PoseSolver, CountsTheVerticesThatAJointMoves) {
+  const SolverStage s;
+  EXPECT_NEAR(s.solver.MovedVertices(0), static_cast<double>(s.body.rest.vertices.size()), 1e-3);
+}
+
+TEST(PoseSolver, HoldsJointsThatMayNotMoveOrAreNotSeen) {
+  SolverStage s;
+  const Eigen::VectorXd before = s.theta;
+  const int hand = static_cast<int>(BoneId::kLeftHand);
+  s.may_move[0] = 0;
+  s.equations.observed[hand] = 0;
+  s.solver.Step(s.tree, s.equations, s.may_move, {0.3, 0.0, 0.01}, s.theta);
+  EXPECT_EQ(s.theta[0], before[0]);
+  EXPECT_NE(s.theta[1], before[1]);
+  const int wrist = s.tree.ChainOf(hand).back();
+  EXPECT_EQ(s.theta[wrist], before[wrist]);
+  EXPECT_EQ(s.solver.held(), 3);  // the slide, and the two hinges of the wrist
+}
+
+TEST(PoseSolver, LeavesThePoseWhereTheEquationsAreBroken) {
+  SolverStage s;
+  const Eigen::VectorXd before = s.theta;
+  s.equations.hessian(2, 2) = -1e9;
+  s.solver.Step(s.tree, s.equations, s.may_move, {0.3, 0.0, 0.0}, s.theta);
+  EXPECT_FALSE(s.solver.solved());
+  EXPECT_EQ(s.theta, before);
+  s.equations.hessian(2, 2) = 1.0;
+  s.equations.gradient[3] = std::numeric_limits<double>::quiet_NaN();
+  s.solver.Step(s.tree, s.equations, s.may_move, {0.3, 0.0, 0.0}, s.theta);
+  EXPECT_FALSE(s.solver.solved());
+  EXPECT_EQ(s.theta, before);
+}
+
+}  // namespace
+}  // namespace vitruvia::dynamic
