@@ -11,6 +11,7 @@
 #include "core/progress.h"
 #include "geometry/surface_map.h"
 #include "sequence/sequence.h"
+#include "synth/cloth/garment.h"
 #include "synth/render/depth_renderer.h"
 
 namespace vitruvia {
@@ -113,6 +114,14 @@ std::vector<std::string> Differences(const SceneSettings& s, const BodyModel& tr
         fmt::format("skinning weights diffused over {} steps in the truth, {} in the template",
                     s.truth.refinement.weight_diffusion, s.subject.weight_diffusion));
   }
+  const ClothSettings& cloth = s.truth.cloth;
+  if (!cloth.IsBare()) {
+    differences.push_back(
+        fmt::format("the truth wears cloth: volume {:g}, thickness {:g}, folds {:g}, wrinkles "
+                    "{:g}, drape {:g} m",
+                    cloth.volume_m, cloth.thickness_m, cloth.fold_depth_m, cloth.wrinkle_depth_m,
+                    cloth.drape_m));
+  }
   const std::string sensor = SensorDifference(s.sensor);
   if (!sensor.empty()) differences.push_back(sensor);
   return differences;
@@ -212,13 +221,18 @@ void RecordSequence(const SceneSettings& settings, const BodyModel& truth, const
   ViewWatch watch(camera);
   TemplateMisfit misfit(subject, truth);
   const auto seed = static_cast<std::uint64_t>(settings.seed);
+  const bool is_dressed = !settings.truth.cloth.IsBare();
+  const Garment garment(truth, settings.truth.cloth, seed);
+  BodyModel dressed = truth;  // its surface changes from frame to frame
   const std::vector<bool> lost = LostFrames(settings.sensor.delivery, settings.frames, seed);
   {
     Progress progress("synth " + folder.filename().string(), settings.frames);
     for (int frame = 0; frame < settings.frames; ++frame) {
       const double time_s = frame / settings.fps;
       const auto posed_at = [&](double t) {
-        return Pose(truth, motion.At(t), settings.truth.skinning, camera_from_subject);
+        const MotionSample sample = motion.At(t);
+        if (is_dressed) garment.Dress(sample.pose, t, dressed.rest.vertices);
+        return Pose(dressed, sample, settings.truth.skinning, camera_from_subject);
       };
       const PosedBody posed = posed_at(time_s);
       RequireInRange(posed.vertices, frame);

@@ -23,6 +23,8 @@ void TruthSettings::Describe(Fields& f) {
            {.meaning = "how the true surface follows its bones: linear blend (paper A, eq. 2a) or "
                        "dual quaternions (paper B, eqs. 3 and 4)"});
   f.Visit(refinement);
+  f.Section("cloth", cloth,
+            {.meaning = "clothes and other volumes that the template does not know"});
 }
 
 void ViewSettings::Describe(Fields& f) {

@@ -8,6 +8,7 @@
 #include "core/settings.h"
 #include "geometry/camera.h"
 #include "synth/bodies/body_source.h"
+#include "synth/cloth/garment.h"
 #include "synth/motions/motion.h"
 #include "synth/sensor/sensor.h"
 
@@ -18,6 +19,7 @@ enum class Skinning { kLinear, kDualQuaternion };
 struct TruthSettings {
   Skinning skinning = Skinning::kLinear;
   RefinementSettings refinement;
+  ClothSettings cloth;  // none by default
 
   void Describe(Fields& fields);
 };

@@ -1,0 +1,68 @@
+// Clothes on a true surface: what a template does not know of it.
+//
+// Every vertex of the rest surface is moved along its normal, by the sum of
+//   volume     a smooth field, the same in all frames: a body of other proportions than the
+//   template thickness  of the cloth folds      waves across each bent joint, deeper on the side
+//   that the bend presses together, that
+//              come and go with the joint's angle
+//   wrinkles   waves that drift slowly over all the cloth, in time alone
+//   drape      sleeves and trouser legs hang below limbs that are not upright
+// all seeded, then skinned with the true bones. Head, hands and feet are bare. It is no simulation
+// of cloth: it has no inertia, does not slide on the skin and touches nothing.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "body/body_model.h"
+#include "core/settings.h"
+
+namespace vitruvia {
+
+struct ClothSettings {
+  double volume_m = 0.0;
+  double thickness_m = 0.0;
+  double fold_depth_m = 0.0;
+  double fold_wavelength_m = 0.05;
+  double wrinkle_depth_m = 0.0;
+  double drape_m = 0.0;
+
+  void Describe(Fields& fields);
+  bool IsBare() const;  // nothing is moved
+};
+
+class Garment {
+ public:
+  Garment(const BodyModel& body, const ClothSettings& settings, std::uint64_t seed);
+
+  // The body's rest vertices, dressed for a pose and a time. Same input, same output.
+  void Dress(const JointPose& pose, double time_s, std::vector<Vector3f>& rest_vertices) const;
+
+ private:
+  struct Wave {
+    Vector3d direction;  // radians per metre
+    double phase, rate;  // radians, radians per second
+  };
+  // A vertex near a joint that wears cloth.
+  struct FoldSite {
+    int vertex, joint;
+    double along_m;     // signed distance from the joint along the limb
+    Vector3d outwards;  // unit, from the limb's axis to the vertex
+    double nearness;    // 1 at the joint … 0 far from it
+  };
+
+  double Volume(int vertex) const;
+  void AddFolds(const JointPose& pose, std::vector<double>& offsets) const;
+  void AddDrape(const JointPose& pose, std::vector<double>& offsets) const;
+
+  const BodyModel& body_;
+  ClothSettings settings_;
+  std::vector<Vector3f> normals_;
+  std::vector<double> covered_;  // 0 bare … 1 clothed, per vertex
+  std::vector<Wave> volume_waves_, wrinkle_waves_;
+  std::vector<FoldSite> fold_sites_;
+  std::vector<double> fold_phases_;  // per joint
+};
+
+}  // namespace vitruvia
