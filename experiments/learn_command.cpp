@@ -13,6 +13,7 @@ void AddLearnCommand(CLI::App& app) {
   AddLearnDatabaseCommand(*learn);
   AddLearnShapeCommand(*learn);
   AddLearnWeightsCommand(*learn);
+  AddLearnComparisonCommand(*learn);
 }
 
 }  // namespace vitruvia

@@ -1,4 +1,4 @@
-// `vitruvia learn database | shape | weights`.
+// `vitruvia learn database | shape | weights | compare`.
 #pragma once
 
 namespace CLI {

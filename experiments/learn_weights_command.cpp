@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 
 #include "core/error.h"
+#include "core/files.h"
+#include "experiments/weight_comparison.h"
 #include "experiments/weight_examples.h"
 #include "learning/skinning/rigid_pieces.h"
 
@@ -49,7 +51,36 @@ void LearnWeights(const Arguments& a) {
   fmt::print("{}\n", a.output.string());
 }
 
+struct ComparisonArguments {
+  fs::path config, output;
+  int subjects = 4;
+};
+
+void CompareOnSubjects(const ComparisonArguments& a) {
+  LearningSettings settings = ReadLearningSettings(a.config);
+  settings.database.population.subjects = a.subjects;
+  settings.database.subjects_with_poses = a.subjects;
+  const WeightComparison comparison =
+      CompareWeights(MakeDatabase(settings.database), settings.weights);
+  Print(comparison);
+  const Json record = {{"settings", WriteSettings(settings)}, {"comparison", ToJson(comparison)}};
+  WriteWholeFile(a.output, record.dump(1) + "\n");
+  fmt::print("{}\n", a.output.string());
+}
+
 }  // namespace
+
+void AddLearnComparisonCommand(CLI::App& learn) {
+  auto a = std::make_shared<ComparisonArguments>();
+  CLI::App* command = learn.add_subcommand(
+      "compare", "Learn skinning weights on several people, compare them and swap them");
+  command->add_option("CONFIG", a->config, "learning file")->required();
+  command->add_option("--subjects", a->subjects, "how many of its population's first people")
+      ->check(CLI::Range(2, 100))
+      ->capture_default_str();
+  command->add_option("-o,--output", a->output, "JSON file of the comparison")->required();
+  command->callback([a] { CompareOnSubjects(*a); });
+}
 
 void AddLearnWeightsCommand(CLI::App& learn) {
   auto a = std::make_shared<Arguments>();

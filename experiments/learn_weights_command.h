@@ -1,4 +1,5 @@
-// `vitruvia learn weights MESHES [--rest MESH] (--rig DIR | --labels FILE | --bones N) -o DIR`.
+// `vitruvia learn weights MESHES [--rest MESH] (--rig DIR | --labels FILE | --bones N) -o DIR` and
+// `vitruvia learn compare CONFIG [--subjects N] -o FILE`.
 #pragma once
 
 namespace CLI {
@@ -9,5 +10,6 @@ namespace vitruvia {
 
 // Below `learn`.
 void AddLearnWeightsCommand(CLI::App& learn);
+void AddLearnComparisonCommand(CLI::App& learn);
 
 }  // namespace vitruvia
