@@ -80,8 +80,8 @@ void ExamplePoseSettings::Describe(Fields& f) {
            {.meaning = "share of each joint's range, round its middle, that is drawn from",
             .min = 0.0,
             .max = 1.0,
-            .origin = Origin::kGuessed,
-            .source = "beyond it limbs pass through the trunk"});
+            .origin = Origin::kTuned,
+            .source = "weights learnt at 0.6 cost figure 11's fitted subject 5 % more error"});
   f.Number("bulge_m", bulge_m,
            {.meaning = "how far flesh at an elbow or knee bent by a right angle bulges",
             .unit = "m",

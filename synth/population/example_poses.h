@@ -14,8 +14,8 @@ namespace vitruvia {
 struct ExamplePoseSettings {
   int poses = 70;
   std::vector<std::filesystem::path> motions;  // key-frame files; none: joint limits only
-  double motion_share = 0.5;                   // of the poses; the others from the joint limits
-  double limits_used = 0.6;     // share of each joint's range round its middle that is drawn from
+  double motion_share = 0.25;                  // of the poses; the others from the joint limits
+  double limits_used = 0.8;     // share of each joint's range round its middle that is drawn from
   double bulge_m = 0.012;       // at a joint bent by a right angle, outwards in its fold
   double bulge_reach_m = 0.07;  // its standard deviation along the surface
   int weight_diffusion = 4;     // steps that the deforming weights differ from the rig's
