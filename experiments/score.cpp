@@ -1,7 +1,12 @@
 #include "experiments/score.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "body/skeleton.h"
 #include "core/error.h"
+#include "metrics/bone_motion.h"
 #include "metrics/joint_error.h"
 #include "metrics/statistics.h"
 #include "metrics/vertex_error.h"
@@ -38,8 +43,61 @@ void RequireMatch(const SequenceReader& sequence, const EstimateReader& estimate
   }
 }
 
+// Vertices that nearly follow one bone alone show how it turns.
+constexpr float kRigidWeight = 0.9f;
+RigidParts PartsOf(const BodyModel& subject) {
+  std::vector<int> bone_of_vertex;
+  for (std::size_t i = 0; i < subject.rest.vertices.size(); ++i) {
+    const bool rigid = subject.weights.weights[i][0] >= kRigidWeight;
+    bone_of_vertex.push_back(rigid ? subject.weights.bones[i][0] : -1);
+  }
+  return {subject.rest.vertices, bone_of_vertex, kBoneCount};
+}
+
+// The axes about which limbs can twist; zero for all other bones.
+std::vector<Vector3d> LimbAxes(const Skeleton& skeleton) {
+  std::vector<Vector3d> axes(kBoneCount, Vector3d::Zero());
+  for (const BoneId id :
+       {BoneId::kLeftUpperArm, BoneId::kLeftForearm, BoneId::kRightUpperArm, BoneId::kRightForearm,
+        BoneId::kLeftThigh, BoneId::kLeftShin, BoneId::kRightThigh, BoneId::kRightShin}) {
+    const int j = static_cast<int>(id);
+    axes[j] = (skeleton.tips[j] - skeleton.joints[j]).normalized();
+  }
+  return axes;
+}
+
+// How the bones of both surfaces turned. Only where the estimate moves the sequence's own template.
+class TurnWatch {
+ public:
+  TurnWatch(const SequenceReader& sequence, const EstimateReader& estimate)
+      : parts_(PartsOf(sequence.subject())),
+        axes_(LimbAxes(sequence.subject().skeleton)),
+        fps_(sequence.info().fps),
+        applies_(estimate.rest_mesh().vertices.size() == sequence.subject().rest.vertices.size()) {}
+
+  void Add(const std::vector<Vector3f>& estimate, const std::vector<Vector3f>& truth) {
+    if (!applies_) return;
+    estimate_.push_back(parts_.Rotations(estimate));
+    truth_.push_back(parts_.Rotations(truth));
+  }
+
+  void Summarize(nlohmann::json& row) const {
+    if (!applies_) return;
+    row["jitter_rms_rad_s2"] = AngularJitter(estimate_, truth_, fps_);
+    row["twist_rms_deg"] = TwistError(estimate_, truth_, axes_) * 180.0 / std::numbers::pi;
+  }
+
+ private:
+  RigidParts parts_;
+  std::vector<Vector3d> axes_;
+  double fps_;
+  bool applies_;
+  std::vector<BoneRotations> estimate_, truth_;
+};
+
 void ScoreSurface(const SequenceReader& sequence, const EstimateReader& estimate,
                   RunRecord& record) {
+  TurnWatch turns(sequence, estimate);
   const RestCorrespondence correspondence(estimate.rest_mesh(), sequence.true_rest_mesh());
   const PinholeCamera& camera = sequence.info().camera;
   ZBuffer zbuffer(camera);
@@ -47,9 +105,10 @@ void ScoreSurface(const SequenceReader& sequence, const EstimateReader& estimate
     const std::vector<Vector3f> true_vertices = sequence.ReadTrueVertices(frame);
     const std::vector<Vector3f> truth = correspondence.TruePositions(true_vertices);
     const DepthImage& rendered = zbuffer.Render(true_vertices, sequence.true_rest_mesh().triangles);
-    const VertexErrorSummary error =
-        Summarize(VertexErrors(estimate.ReadVertices(frame), truth),
-                  VisiblePoints(truth, rendered, camera, kVisibleWithin_m));
+    const std::vector<Vector3f> estimated = estimate.ReadVertices(frame);
+    turns.Add(estimated, truth);
+    const VertexErrorSummary error = Summarize(
+        VertexErrors(estimated, truth), VisiblePoints(truth, rendered, camera, kVisibleWithin_m));
     record.frames["l2_mean_m"].push_back(error.mean_m);
     record.frames["l2_max_m"].push_back(error.max_m);
     record.frames["l2_mean_visible_m"].push_back(error.visible_mean_m);
@@ -57,6 +116,7 @@ void ScoreSurface(const SequenceReader& sequence, const EstimateReader& estimate
     record.frames["l2_mean_hidden_m"].push_back(error.hidden_mean_m);
     record.frames["l2_max_hidden_m"].push_back(error.hidden_max_m);
   }
+  turns.Summarize(record.summary);
 }
 
 JointErrorsByClass ScoreJoints(const SequenceReader& sequence, const EstimateReader& estimate,
@@ -83,6 +143,7 @@ void RecordOutcomes(const EstimateReader& estimate, RunRecord& record) {
     record.frames["iterations"].push_back(frame.iterations);
     record.frames["failed"].push_back(IsFailure(frame.outcome) ? 1.0 : 0.0);
     record.frames["condition"].push_back(frame.condition);
+    record.frames["rotation_drift"].push_back(frame.rotation_drift);
     for (const NamedValue& energy : frame.energies)
       record.frames["energy_" + energy.name].push_back(energy.value);
   }
@@ -97,6 +158,35 @@ std::vector<RunRecord::Step> StepTimes(const EstimateReader& estimate) {
                      Quantile(ms, 0.95), Maximum(ms)});
   }
   return steps;
+}
+
+// A frame is lost when the tracker says so or when the surface is this far off on average.
+constexpr double kLostAbove_m = 0.05;
+
+// How often the subject was lost, and how many frames it took at the longest to find it again; -1
+// if it was not found again before the end.
+void SummarizeLosses(const RunRecord& record, nlohmann::json& row) {
+  const auto& failed = record.frames.at("failed");
+  const auto& error_m = record.frames.at("l2_mean_m");
+  int lost = 0, run = 0, longest = 0;
+  for (std::size_t i = 0; i < failed.size(); ++i) {
+    run = failed[i] > 0.0 || error_m[i] > kLostAbove_m ? run + 1 : 0;
+    lost += run > 0 ? 1 : 0;
+    longest = std::max(longest, run);
+  }
+  row["frames_lost"] = lost;
+  row["frames_to_recover"] = run > 0 ? -1 : longest;
+}
+
+// Everything stored that is no number. Vertices and joints cannot be: neither writer nor reader of
+// estimates lets them pass.
+int NonFinite(const RunRecord& record) {
+  int count = 0;
+  for (const auto& [name, values] : record.frames) {
+    count += static_cast<int>(
+        std::count_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); }));
+  }
+  return count;
 }
 
 void SummarizeRun(const JointErrorsByClass& joints, RunRecord& record) {
@@ -127,6 +217,10 @@ void SummarizeRun(const JointErrorsByClass& joints, RunRecord& record) {
   row["frame_ms_max"] = Maximum(frame_ms);
   row["iterations_mean"] = mean("iterations");
   row["condition_max"] = max("condition");
+  row["rotation_drift_max"] = max("rotation_drift");
+  row["non_finite"] = NonFinite(record);
+  if (!record.variant.empty()) row["case"] = record.variant;
+  SummarizeLosses(record, row);
 }
 
 }  // namespace

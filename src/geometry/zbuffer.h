@@ -5,20 +5,19 @@
 // of the camera. Both sides of a triangle are drawn.
 #pragma once
 
-#include "geometry/camera.h"
-#include "geometry/image.h"
-#include "geometry/mesh.h"
+#include "geometry/mesh_rasterizer.h"
 
 namespace vitruvia {
 
-class ZBuffer {
+class ZBuffer final : public MeshRasterizer {
  public:
   explicit ZBuffer(const PinholeCamera& camera, float near_m = 0.05f);
 
   // Draws into a cleared buffer. The result stays valid until the next call, as long as this
   // ZBuffer.
   const DepthImage& Render(const std::vector<Vector3f>& vertices_in_camera,
-                           const std::vector<Triangle>& triangles) &;
+                           const std::vector<Triangle>& triangles) &
+      override;
 
  private:
   void Project(const std::vector<Vector3f>& vertices_in_camera);

@@ -33,6 +33,8 @@ void ClassifyVertices(const std::vector<Vector3f>& vertices, const std::vector<i
     if (z > 0.0f && std::abs(vertex.z() - z) < nearness.depth_m) {
       classes.near_surface.push_back(i);
       classes.observed_depth.push_back(z);
+    } else if (nearness.behind == BehindSurface::kHidden && z > 0.0f && vertex.z() > z) {
+      continue;
     } else if (!IsExplained(captured, static_cast<int>(pixel.x() + 0.5f),
                             static_cast<int>(pixel.y() + 0.5f), vertex.z(), nearness)) {
       classes.elsewhere.push_back(i);
@@ -50,27 +52,31 @@ void FindUnexplainedPoints(const PointCloud& cloud, const DepthImage& rendered,
   }
 }
 
+void PairFinder::FindNearest(const std::vector<Vector3f>& points, const std::vector<int>& queries,
+                             const NearestNeighbors& near, float cutoff_m) {
+  positions_.clear();
+  for (const int i : queries) positions_.push_back(points[i]);
+  near.FindNearest(positions_, cutoff_m, neighbors_);
+}
+
 void PairFinder::VerticesToPoints(const std::vector<Vector3f>& vertices,
                                   const std::vector<int>& queries, const PointCloud& cloud,
-                                  const KdTree& cloud_tree, float cutoff_m,
+                                  const NearestNeighbors& near_cloud, float cutoff_m,
                                   std::vector<Pair>& pairs) {
-  positions_.clear();
-  for (const int i : queries) positions_.push_back(vertices[i]);
-  cloud_tree.FindNearest(positions_, cutoff_m, neighbors_);
+  FindNearest(vertices, queries, near_cloud, cutoff_m);
   for (std::size_t k = 0; k < queries.size(); ++k) {
     if (neighbors_[k].index >= 0) pairs.push_back({queries[k], cloud.points[neighbors_[k].index]});
   }
 }
 
-void PairFinder::PointsToVertices(const PointCloud& cloud, const std::vector<int>& queries,
-                                  const std::vector<int>& candidates, const KdTree& candidate_tree,
-                                  float cutoff_m, std::vector<Pair>& pairs) {
-  positions_.clear();
-  for (const int i : queries) positions_.push_back(cloud.points[i]);
-  candidate_tree.FindNearest(positions_, cutoff_m, neighbors_);
+void PairFinder::DropNear(const PointCloud& cloud, const NearestNeighbors& near, float distance_m,
+                          std::vector<int>& queries) {
+  FindNearest(cloud.points, queries, near, distance_m);
+  std::size_t kept = 0;
   for (std::size_t k = 0; k < queries.size(); ++k) {
-    if (neighbors_[k].index >= 0) pairs.push_back({candidates[neighbors_[k].index], positions_[k]});
+    if (neighbors_[k].index < 0) queries[kept++] = queries[k];
   }
+  queries.resize(kept);
 }
 
 }  // namespace vitruvia

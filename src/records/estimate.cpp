@@ -1,5 +1,6 @@
 #include "records/estimate.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <fstream>
@@ -57,6 +58,16 @@ Vector3<double> ParsePoint(const JsonNode& node) {
   return {xyz[0], xyz[1], xyz[2]};
 }
 
+// The largest ‖RᵀR − I‖ (Frobenius) of any bone.
+double RotationDrift(const BoneTransforms& bones) {
+  double largest = 0.0;
+  for (const Rigidd& bone : bones) {
+    const Matrix3<double> product = bone.rotation.transpose() * bone.rotation;
+    largest = std::max(largest, (product - Matrix3<double>::Identity()).norm());
+  }
+  return largest;
+}
+
 Json JsonOfFrame(const TrackResult& result, double frame_ms, int index) {
   const std::string where = fmt::format("frame {}: ", index);
   Json joints = Json::array();
@@ -74,6 +85,7 @@ Json JsonOfFrame(const TrackResult& result, double frame_ms, int index) {
           {"step_ms", PairsOf(result.step_ms, where + "step_ms ")},
           {"energies", PairsOf(result.energies, where + "energy ")},
           {"condition", singular ? Json(nullptr) : Finite(result.condition, where + "condition")},
+          {"rotation_drift", Finite(RotationDrift(result.camera_from_rest), where + "drift")},
           {"joints", joints}};
 }
 
@@ -86,6 +98,9 @@ FrameEstimate ParseFrame(const JsonNode& node) {
   frame.step_ms = ParsePairs(node.At("step_ms"));
   frame.energies = ParsePairs(node.At("energies"));
   frame.condition = node.At("condition").NumberOr(std::numeric_limits<double>::infinity());
+  if (node.json().contains("rotation_drift")) {  // older estimates have none
+    frame.rotation_drift = node.At("rotation_drift").Number();
+  }
   frame.joints = node.At("joints").List(ParsePoint);
   return frame;
 }

@@ -22,6 +22,7 @@ struct FrameEstimate {
   double frame_ms = 0.0;  // wall clock round TrackFrame only
   std::vector<NamedValue> step_ms, energies;
   double condition = -1.0;
+  double rotation_drift = 0.0;  // largest ‖RᵀR − I‖ of any bone; 0 for methods without bones
   std::vector<Vector3<double>> joints;
 };
 

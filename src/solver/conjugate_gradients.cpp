@@ -14,7 +14,10 @@ ConjugateGradientsSummary ConjugateGradients::Solve(const Eigen::MatrixXd& a,
   ConjugateGradientsSummary summary;
   alphas_.clear();
   betas_.clear();
-  inverse_diagonal_ = a.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / d : 0.0; });
+  inverse_diagonal_ = a.diagonal().unaryExpr([this](double d) {
+    if (!(d > 0.0)) return 0.0;
+    return preconditioner_ == Preconditioner::kJacobi ? 1.0 / d : 1.0;
+  });
   x.setZero(b.size());
   residual_ = b;
   const double b_norm = b.norm();
@@ -46,7 +49,6 @@ ConjugateGradientsSummary ConjugateGradients::Solve(const Eigen::MatrixXd& a,
     direction_ = preconditioned_ + betas_.back() * direction_;
     rho = next_rho;
   }
-  summary.condition = RitzCondition();
   return summary;
 }
 

@@ -11,23 +11,27 @@ struct ConjugateGradientsSummary {
   int iterations = 0;
   bool converged = false;        // relative residual below the tolerance
   double relative_residual = 0;  // ‖b − A x‖ / ‖b‖ as the recursion has it
-  // Ratio of the extreme Ritz values of the Jacobi-preconditioned matrix: a lower bound of its
-  // condition number that tightens as the iterations span the space. −1 with no iteration.
-  double condition = -1.0;
 };
 
-// Solves A x = b from x = 0 with the Jacobi preconditioner, until the residual has fallen by
-// `relative_tolerance` or after max_iterations. Rows of A whose diagonal is 0 are left alone (x =
-// 0).
+enum class Preconditioner { kNone, kJacobi };
+
+// Solves A x = b from x = 0 until the residual has fallen by `relative_tolerance` or after
+// max_iterations. Rows of A whose diagonal is 0 are left alone (x = 0).
 class ConjugateGradients {
  public:
+  explicit ConjugateGradients(Preconditioner preconditioner = Preconditioner::kJacobi)
+      : preconditioner_(preconditioner) {}
+
   ConjugateGradientsSummary Solve(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
                                   double relative_tolerance, int max_iterations,
                                   Eigen::VectorXd& x);
 
- private:
+  // Ratio of the extreme Ritz values of the last, preconditioned matrix: a lower bound of its
+  // condition number that tightens as the iterations span the space. −1 with no iteration.
   double RitzCondition() const;
 
+ private:
+  Preconditioner preconditioner_;
   Eigen::VectorXd inverse_diagonal_, residual_, preconditioned_, direction_, a_direction_;
   std::vector<double> alphas_, betas_;
 };

@@ -160,15 +160,18 @@ TEST(PairFinder, FindsWhatBruteForceFinds) {
   for (int i = 0; i < 150; i += 2) point_queries.push_back(i);
   constexpr float kCutoff = 0.15f;
 
-  KdTree cloud_tree, candidate_tree;
-  cloud_tree.Build(cloud.points);
+  const auto near_cloud = MakeNearestNeighbors(Association::kExhaustive, SmallCamera(), 0);
+  const auto near_candidates = MakeNearestNeighbors(Association::kExhaustive, SmallCamera(), 0);
+  near_cloud->Build(cloud.points);
   std::vector<Vector3f> candidates;
   for (const int i : queries) candidates.push_back(vertices[i]);
-  candidate_tree.Build(candidates);
+  near_candidates->Build(candidates);
   PairFinder finder;
   std::vector<Pair> pairs;
-  finder.VerticesToPoints(vertices, queries, cloud, cloud_tree, kCutoff, pairs);
-  finder.PointsToVertices(cloud, point_queries, queries, candidate_tree, kCutoff, pairs);
+  finder.VerticesToPoints(vertices, queries, cloud, *near_cloud, kCutoff, pairs);
+  // Every third candidate reaches half as far.
+  const auto cutoff = [](int vertex) { return vertex % 9 == 0 ? 0.5f * kCutoff : kCutoff; };
+  finder.PointsToVertices(cloud, point_queries, queries, *near_candidates, kCutoff, cutoff, pairs);
 
   const auto nearest = [](const Vector3f& from, const std::vector<Vector3f>& to) {
     int best = 0;
@@ -185,7 +188,7 @@ TEST(PairFinder, FindsWhatBruteForceFinds) {
   }
   for (const int i : point_queries) {
     const int k = nearest(cloud.points[i], candidates);
-    if ((candidates[k] - cloud.points[i]).norm() < kCutoff)
+    if ((candidates[k] - cloud.points[i]).norm() < cutoff(queries[k]))
       reference.push_back({queries[k], cloud.points[i]});
   }
   ASSERT_EQ(pairs.size(), reference.size());

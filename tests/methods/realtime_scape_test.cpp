@@ -1,11 +1,13 @@
 // The tracker as a whole, on depth drawn by the z-buffer.
 #include "methods/realtime_scape/realtime_scape.h"
 
+#include <functional>
 #include <limits>
 
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "geometry/zbuffer.h"
 #include "methods/registry.h"
 #include "synth/bodies/body_source.h"
 
@@ -88,6 +90,70 @@ TEST(RealtimeScape, SaysLostWhenTheDataAreElsewhere) {
   const TrackResult result = tracker.TrackFrame({1, 1 / 30.0, wall});
   EXPECT_EQ(result.outcome, Outcome::kLost);
   EXPECT_NE(result.message.find("explains"), std::string::npos);
+}
+
+// Whatever a frame holds, the result is finite and the subject is found again afterwards.
+TEST(RealtimeScape, SurvivesFramesThatShowNothingSensible) {
+  Stage stage;
+  DepthImage one_pixel(320, 240), not_numbers(320, 240, std::numeric_limits<float>::quiet_NaN());
+  one_pixel(160, 120) = 2.5f;
+  const DepthImage frames[] = {DepthImage(320, 240),
+                               DepthImage(320, 240, 65.535f),
+                               DepthImage(320, 240, std::numeric_limits<float>::infinity()),
+                               DepthImage(320, 240, 1e-6f),
+                               one_pixel,
+                               not_numbers};
+  for (const DepthImage& odd : frames) {
+    RealtimeScape tracker{Settings{}};
+    tracker.Start(stage.body, stage.camera);
+    tracker.TrackFrame(stage.Frame(0, 0.0));
+    for (int i = 1; i <= 3; ++i) {
+      const TrackResult result = tracker.TrackFrame({i, i / 30.0, odd});
+      for (const Vector3f& vertex : result.vertices) ASSERT_TRUE(vertex.allFinite());
+    }
+    TrackResult after;
+    for (int i = 4; i < 8; ++i) after = tracker.TrackFrame(stage.Frame(i, 0.0));
+    EXPECT_FALSE(IsFailure(after.outcome)) << after.message;
+    EXPECT_LT(stage.MeanError(after, 0.0), 0.01);
+  }
+}
+
+TEST(RealtimeScape, EverySettingTracks) {
+  Stage stage;
+  const auto error_with = [&](const std::function<void(Settings&)>& change) {
+    Settings settings;
+    change(settings);
+    RealtimeScape tracker{settings};
+    tracker.Start(stage.body, stage.camera);
+    double angle = 0.0;
+    TrackResult result;
+    for (int i = 0; i <= 8; ++i) {
+      angle = 0.03 * i;
+      result = tracker.TrackFrame(stage.Frame(i, angle));
+    }
+    EXPECT_FALSE(IsFailure(result.outcome)) << result.message;
+    return stage.MeanError(result, angle);
+  };
+  const double bound_m = 0.012;
+  for (const auto association :
+       {Association::kKdTree, Association::kWindow, Association::kExhaustive}) {
+    EXPECT_LT(error_with([&](Settings& s) { s.fit.association = association; }), bound_m);
+  }
+  for (const auto kind :
+       {LinearSolverKind::kConjugateGradients, LinearSolverKind::kPreconditionedConjugateGradients,
+        LinearSolverKind::kSparseCholesky}) {
+    EXPECT_LT(error_with([&](Settings& s) { s.solver.linear.kind = kind; }), bound_m);
+  }
+  EXPECT_LT(error_with([](Settings& s) { s.solver.linear.precision = Precision::kFloat; }),
+            bound_m);
+  EXPECT_LT(error_with([](Settings& s) { s.fit.pair_residual = PairResidual::kPlane; }), bound_m);
+  EXPECT_LT(error_with([](Settings& s) { s.fit.kernel = RobustKernel::kNone; }), bound_m);
+  EXPECT_LT(error_with([](Settings& s) { s.fit.surface_stride = 2; }), bound_m);
+  EXPECT_LT(error_with([](Settings& s) { s.fit.visibility_iterations = 1; }), bound_m);
+  EXPECT_LT(error_with([](Settings& s) { s.motion.model = MotionModel::kConstantRotation; }),
+            bound_m);
+  EXPECT_LT(error_with([](Settings& s) { s.rotation_update = RotationUpdate::kLinearOrthonormal; }),
+            bound_m);
 }
 
 TEST(RealtimeScape, IgnoresPixelsThatAreNoNumbers) {

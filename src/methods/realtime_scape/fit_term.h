@@ -14,17 +14,14 @@ struct FitData {
   std::vector<Pair> pairs;  // of V2 and P2
 };
 
-// The posed surface in one iteration (camera frame).
-struct PosedSurface {
-  std::vector<Vector3f> vertices;
-  BoneTransforms camera_from_rest;
-};
+// The share of a residual's weight that a robust kernel leaves to it: 1 at 0.
+double RobustWeight(RobustKernel kernel, double residual_m, double scale_m);
 
 // Adds the rows of both kinds to the normal equations: unknowns are per bone (r, t), a rotation
 // exp(r) applied on the left about the bone's centre and a translation of the centre in length
 // units. Lengths are divided by length_unit_m. Returns the energy that it added.
-double AddFitTerm(const Model& model, const BodyPose& pose, const PosedSurface& surface,
-                  const PinholeCamera& camera, const FitData& data, const FitSettings& settings,
-                  double length_unit_m, BlockNormalEquations& equations);
+double AddFitTerm(const Model& model, const BodyPose& pose, const PinholeCamera& camera,
+                  const FitData& data, const FitSettings& settings, double length_unit_m,
+                  BlockNormalEquations& equations);
 
 }  // namespace vitruvia::realtime_scape

@@ -39,4 +39,9 @@ BoneTransforms ToTransforms(const Model& model, const BodyPose& pose) {
   return camera_from_rest;
 }
 
+void PoseSurface(const Model& model, const BodyPose& pose, PosedSurface& surface) {
+  surface.camera_from_rest = ToTransforms(model, pose);
+  SkinLinear(model.rest_vertices, model.weights, surface.camera_from_rest, surface.vertices);
+}
+
 }  // namespace vitruvia::realtime_scape

@@ -45,4 +45,11 @@ struct Model {
 
 BoneTransforms ToTransforms(const Model& model, const BodyPose& pose);
 
+// The surface in some pose (camera frame).
+struct PosedSurface {
+  std::vector<Vector3f> vertices;
+  BoneTransforms camera_from_rest;
+};
+void PoseSurface(const Model& model, const BodyPose& pose, PosedSurface& surface);
+
 }  // namespace vitruvia::realtime_scape

@@ -58,7 +58,8 @@ void KeepBest(double share, std::vector<Match>& matches) {
 }  // namespace
 
 Rigidd PlaceRestPose(const Model& model, const PointCloud& cloud, const PinholeCamera& camera,
-                     const FitSettings& fit, const PlacementSettings& settings, ZBuffer& zbuffer) {
+                     const FitSettings& fit, const PlacementSettings& settings,
+                     MeshRasterizer& rasterizer) {
   // Facing the camera: the subject's up is the image's up, its front looks back along the view.
   Rigidd camera_from_subject;
   camera_from_subject.rotation = Vector3d(1.0, -1.0, -1.0).asDiagonal();
@@ -72,7 +73,7 @@ Rigidd PlaceRestPose(const Model& model, const PointCloud& cloud, const PinholeC
   for (int i = 0; i < settings.iterations; ++i) {
     const std::vector<Vector3f> posed =
         Transformed(model.rest_vertices, camera_from_subject.Cast<float>());
-    FindVisibleVertices(posed, zbuffer.Render(posed, model.triangles), camera,
+    FindVisibleVertices(posed, rasterizer.Render(posed, model.triangles), camera,
                         static_cast<float>(fit.visible_within_m), visible);
     std::vector<Vector3f> visible_positions;
     for (const int v : visible) visible_positions.push_back(posed[v]);

@@ -1,7 +1,7 @@
 // Puts the rest pose onto the first frame.
 #pragma once
 
-#include "geometry/zbuffer.h"
+#include "geometry/mesh_rasterizer.h"
 #include "matching/point_cloud.h"
 #include "methods/realtime_scape/model.h"
 #include "methods/realtime_scape/settings.h"
@@ -12,6 +12,7 @@ namespace vitruvia::realtime_scape {
 // centroid on centroid, then trimmed rigid closest-point iterations of the cloud against the
 // visible vertices.
 Rigidd PlaceRestPose(const Model& model, const PointCloud& cloud, const PinholeCamera& camera,
-                     const FitSettings& fit, const PlacementSettings& settings, ZBuffer& zbuffer);
+                     const FitSettings& fit, const PlacementSettings& settings,
+                     MeshRasterizer& rasterizer);
 
 }  // namespace vitruvia::realtime_scape

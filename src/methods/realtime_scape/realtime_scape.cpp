@@ -1,12 +1,19 @@
 #include "methods/realtime_scape/realtime_scape.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "core/error.h"
 #include "core/timer.h"
 #include "matching/visibility.h"
 #include "methods/realtime_scape/axis_term.h"
+#include "methods/realtime_scape/bone_sight.h"
+#include "methods/realtime_scape/fit_term.h"
+#include "methods/realtime_scape/inertia_term.h"
+#include "methods/realtime_scape/joint_term.h"
 #include "methods/realtime_scape/placement.h"
+#include "methods/realtime_scape/prediction.h"
 
 namespace vitruvia::realtime_scape {
 namespace {
@@ -29,6 +36,32 @@ constexpr std::array<const char*, kStepCount> kStepNames = {
 
 constexpr std::array<const char*, 4> kEnergyNames = {"fit", "joint", "inertia", "axis"};
 
+// Whether some bone's rotation is none any more, beyond what a linear update may do in a frame, or
+// a bone has left for where no camera looks.
+bool IsTornApart(const BodyPose& pose) {
+  constexpr double kLargestStretch = 0.5, kFarthest_m = 100.0;
+  return !std::all_of(pose.begin(), pose.end(), [](const BonePose& bone) {
+    const Matrix3<double> product = bone.rotation.transpose() * bone.rotation;
+    return (product - Matrix3<double>::Identity()).norm() <= kLargestStretch &&
+           bone.center.norm() <= kFarthest_m;
+  });
+}
+
+Matrix3<double> Turned(const Matrix3<double>& rotation, const Vector3d& step,
+                       RotationUpdate update) {
+  const Matrix3<double> linear = rotation + Skew<double>(step) * rotation;
+  switch (update) {
+    case RotationUpdate::kLinear:
+      return linear;
+    case RotationUpdate::kLinearOrthonormal:
+      return NearestRotation(linear);
+    case RotationUpdate::kExponential:
+      break;
+  }
+  // Rounding errors of many steps would add up.
+  return NearestRotation<double>(ExpSo3<double>(step) * rotation);
+}
+
 }  // namespace
 
 struct RealtimeScape::Session {
@@ -36,31 +69,44 @@ struct RealtimeScape::Session {
       : camera(view),
         model(subject),
         joint_term(model, settings.joint_rows),
-        zbuffer(view),
-        equations(kBoneCount) {}
+        rasterizer(MakeRasterizer(settings.fit.rasterizer, view)),
+        sight(model),
+        candidate_finder(model),
+        near_cloud(MakeNearestNeighbors(settings.fit.association, view, settings.fit.window_px)),
+        near_candidates(
+            MakeNearestNeighbors(settings.fit.association, view, settings.fit.window_px)),
+        near_settled(MakeNearestNeighbors(settings.fit.association, view, settings.fit.window_px)),
+        equations(kBoneCount),
+        solver(MakeLinearSolver(settings.solver.linear)) {}
 
   PinholeCamera camera;
   Model model;
   JointTerm joint_term;
-  ZBuffer zbuffer;
+  std::unique_ptr<MeshRasterizer> rasterizer;
 
+  // What is carried from frame to frame.
   bool placed = false;
-  BodyPose pose;
-  LocalRotations previous;
+  BodyPose pose, last_pose, before_last_pose;
+  BoneSight sight;
 
   // Workspace, reused from frame to frame.
+  int iteration = 0;
+  LocalRotations expected;
   PointCloud cloud;
-  KdTree cloud_tree, visible_tree;
+  CandidateFinder candidate_finder;
+  std::unique_ptr<NearestNeighbors> near_cloud, near_candidates, near_settled;
   PosedSurface surface;
-  const DepthImage* rendered = nullptr;  // the z-buffer's, of the current surface
-  std::vector<int> visible, unexplained;
-  std::vector<Vector3f> visible_positions;
+  const DepthImage* rendered = nullptr;  // the rasteriser's, of the current surface
+  std::vector<int> visible, candidates, settled;
+  std::vector<int> unexplained;  // P2
+  std::vector<int> searching;    // those of P2 that ask for a vertex
+  std::vector<Vector3f> positions;
   FitData fit;
   PairFinder pair_finder;
   BlockNormalEquations equations;
-  ConjugateGradients solver;
+  std::unique_ptr<LinearSolver> solver;
+  bool solved = true;
   Eigen::VectorXd increment;
-  ConjugateGradientsSummary solver_summary;
   std::array<double, 4> energies{};
   std::array<double, kStepCount> step_ms{};
   Stopwatch watch;
@@ -82,98 +128,124 @@ void RealtimeScape::Start(const Subject& subject, const PinholeCamera& camera) {
 TrackResult RealtimeScape::TrackFrame(const DepthFrame& frame) {
   Require(session_ != nullptr, "TrackFrame called before Start");
   const bool first = !session_->placed;
-  BeginFrame(frame);
-  if (session_->cloud.points.empty()) return Result(false, 0);
+  if (!BeginFrame(frame)) return Result(false, 0);
 
   const int limit =
       first ? settings_.stopping.first_frame_iterations : settings_.stopping.max_iterations;
-  int iterations = 0;
+  int& iteration = session_->iteration;
   bool stopped_small = false;
-  while (iterations < limit && !stopped_small) {
+  for (iteration = 0; iteration < limit && !stopped_small && session_->solved; ++iteration) {
     Render();
-    BuildVisibleTree();
     Classify(frame);
+    BuildCandidates();
     FindPairs();
     Assemble();
     Solve();
     stopped_small = IsSmall(Update());
-    ++iterations;
   }
-  return Result(stopped_small, iterations);
+  EndFrame();
+  return Result(stopped_small, iteration);
 }
 
-// Line 1 and 2: start from the last frame's pose; build the tree of P.
-void RealtimeScape::BeginFrame(const DepthFrame& frame) {
+// Lines 1 and 2: the pose to start from; the points P. False if there are none.
+bool RealtimeScape::BeginFrame(const DepthFrame& frame) {
   Session& s = *session_;
   Require(frame.depth.width() == s.camera.width && frame.depth.height() == s.camera.height,
           "frame {} is {}×{} pixels, the camera {}×{}", frame.index, frame.depth.width(),
           frame.depth.height(), s.camera.width, s.camera.height);
   s.step_ms.fill(0.0);
   s.energies.fill(0.0);
-  s.solver_summary = {};
+  s.solved = true;
   s.watch.LapMs();
   CloudFromDepth(frame.depth, s.camera, settings_.cloud.stride,
                  static_cast<float>(settings_.cloud.max_depth_m), s.cloud);
-  if (s.cloud.points.empty()) return;
-  s.cloud_tree.Build(s.cloud.points);
-  if (!s.placed) {
-    const Rigidd camera_from_subject =
-        PlaceRestPose(s.model, s.cloud, s.camera, settings_.fit, settings_.placement, s.zbuffer);
-    for (int j = 0; j < kBoneCount; ++j) {
-      s.pose[j] = {camera_from_subject.rotation, camera_from_subject * s.model.rest_centers[j]};
-    }
-    PoseSurface();
-    s.placed = true;
-  }
-  s.previous = LocalRotationsOf(s.pose);
+  if (s.cloud.points.empty()) return false;
+  s.near_cloud->Build(s.cloud.points);
+  if (!s.placed) Place();
+  Predict();
   s.Lap(kCloudTree);
+  return true;
 }
 
-void RealtimeScape::PoseSurface() {
+void RealtimeScape::Place() {
   Session& s = *session_;
-  s.surface.camera_from_rest = ToTransforms(s.model, s.pose);
-  SkinLinear(s.model.rest_vertices, s.model.weights, s.surface.camera_from_rest,
-             s.surface.vertices);
+  const Rigidd camera_from_subject =
+      PlaceRestPose(s.model, s.cloud, s.camera, settings_.fit, settings_.placement, *s.rasterizer);
+  for (int j = 0; j < kBoneCount; ++j) {
+    s.pose[j] = {camera_from_subject.rotation, camera_from_subject * s.model.rest_centers[j]};
+  }
+  s.last_pose = s.before_last_pose = s.pose;
+  s.sight.Forget();
+  s.placed = true;
+}
+
+void RealtimeScape::Predict() {
+  Session& s = *session_;
+  const Prediction prediction =
+      PredictPose(s.model, s.last_pose, s.before_last_pose, s.sight, settings_.motion);
+  s.pose = prediction.pose;
+  s.expected = prediction.local_rotations;
+  PoseSurface(s.model, s.pose, s.surface);
 }
 
 // Line 5.
 void RealtimeScape::Render() {
   Session& s = *session_;
-  s.rendered = &s.zbuffer.Render(s.surface.vertices, s.model.triangles);
-  FindVisibleVertices(s.surface.vertices, *s.rendered, s.camera,
-                      static_cast<float>(settings_.fit.visible_within_m), s.visible);
+  if (s.iteration < settings_.fit.visibility_iterations) {
+    s.rendered = &s.rasterizer->Render(s.surface.vertices, s.model.triangles);
+    FindVisibleVertices(s.surface.vertices, *s.rendered, s.camera,
+                        static_cast<float>(settings_.fit.visible_within_m), s.visible);
+  }
   s.Lap(kRender);
-}
-
-// Line 6.
-void RealtimeScape::BuildVisibleTree() {
-  Session& s = *session_;
-  s.visible_positions.clear();
-  for (const int i : s.visible) s.visible_positions.push_back(s.surface.vertices[i]);
-  s.visible_tree.Build(s.visible_positions);
-  s.Lap(kVisibleTree);
 }
 
 // Line 7.
 void RealtimeScape::Classify(const DepthFrame& frame) {
   Session& s = *session_;
   const NearnessSettings nearness{static_cast<float>(settings_.fit.near_surface_m),
-                                  settings_.fit.edge_px,
-                                  static_cast<float>(settings_.fit.smooth_m)};
+                                  settings_.fit.edge_px, static_cast<float>(settings_.fit.smooth_m),
+                                  settings_.fit.behind_surface};
   ClassifyVertices(s.surface.vertices, s.visible, frame.depth, s.camera, nearness, s.fit.classes);
   FindUnexplainedPoints(s.cloud, *s.rendered, nearness, s.unexplained);
+  s.sight.Count(s.model, s.visible, s.fit.classes);
   s.Lap(kClassify);
+}
+
+// Line 6; after line 7, for what may be paired depends on what is confirmed.
+void RealtimeScape::BuildCandidates() {
+  Session& s = *session_;
+  s.searching = s.unexplained;
+  s.candidate_finder.Find(s.model, s.surface, s.visible, s.sight, settings_.search, s.candidates,
+                          s.settled);
+  const auto build = [&](const std::vector<int>& vertices, NearestNeighbors& neighbors) {
+    s.positions.clear();
+    for (const int i : vertices) s.positions.push_back(s.surface.vertices[i]);
+    neighbors.Build(s.positions);
+  };
+  build(s.candidates, *s.near_candidates);
+  if (s.settled.empty()) return s.Lap(kVisibleTree);
+  // Points at the skin of settled bones are theirs, and ask nothing.
+  build(s.settled, *s.near_settled);
+  s.pair_finder.DropNear(s.cloud, *s.near_settled, static_cast<float>(settings_.search.owned_m),
+                         s.searching);
+  s.Lap(kVisibleTree);
 }
 
 // Line 8.
 void RealtimeScape::FindPairs() {
   Session& s = *session_;
-  const auto cutoff = static_cast<float>(settings_.fit.pair_cutoff_m);
+  std::array<float, kBoneCount> reach;
+  for (int j = 0; j < kBoneCount; ++j) {
+    reach[j] = static_cast<float>(ReachOf(j, s.sight, settings_.fit, settings_.search));
+  }
   s.fit.pairs.clear();
-  s.pair_finder.VerticesToPoints(s.surface.vertices, s.fit.classes.elsewhere, s.cloud, s.cloud_tree,
-                                 cutoff, s.fit.pairs);
-  s.pair_finder.PointsToVertices(s.cloud, s.unexplained, s.visible, s.visible_tree, cutoff,
+  s.pair_finder.VerticesToPoints(s.surface.vertices, s.fit.classes.elsewhere, s.cloud,
+                                 *s.near_cloud, static_cast<float>(settings_.fit.pair_cutoff_m),
                                  s.fit.pairs);
+  s.pair_finder.PointsToVertices(
+      s.cloud, s.searching, s.candidates, *s.near_candidates,
+      *std::max_element(reach.begin(), reach.end()),
+      [&](int vertex) { return reach[s.model.weights.bones[vertex][0]]; }, s.fit.pairs);
   s.Lap(kCorrespond);
 }
 
@@ -182,11 +254,10 @@ void RealtimeScape::Assemble() {
   Session& s = *session_;
   const double unit = settings_.length_unit_m;
   s.equations.Reset();
-  s.energies = {
-      AddFitTerm(s.model, s.pose, s.surface, s.camera, s.fit, settings_.fit, unit, s.equations),
-      s.joint_term.Add(s.model, s.pose, settings_.joint_weight, unit, s.equations),
-      AddInertiaTerm(s.pose, s.previous, settings_.inertia_weight, s.equations),
-      AddAxisTerm(s.pose, settings_.axis_weight, s.equations)};
+  s.energies = {AddFitTerm(s.model, s.pose, s.camera, s.fit, settings_.fit, unit, s.equations),
+                s.joint_term.Add(s.model, s.pose, settings_.joint_weight, unit, s.equations),
+                AddInertiaTerm(s.pose, s.expected, settings_.inertia_weight, s.equations),
+                AddAxisTerm(s.pose, settings_.axis_weight, s.equations)};
   s.equations.AddDamping(settings_.solver.damping);
   s.equations.Symmetrize();
   s.Lap(kAssemble);
@@ -195,13 +266,13 @@ void RealtimeScape::Assemble() {
 // Line 10.
 void RealtimeScape::Solve() {
   Session& s = *session_;
-  s.solver_summary = s.solver.Solve(s.equations.hessian(), -s.equations.gradient(),
-                                    settings_.solver.relative_tolerance,
-                                    settings_.solver.max_iterations, s.increment);
+  const bool finite = std::isfinite(s.equations.energy());
+  s.solved = finite && s.solver->Solve(s.equations.hessian(), -s.equations.gradient(), s.increment);
+  if (!finite) s.increment.setZero(s.equations.size());
   s.Lap(kSolve);
 }
 
-// Line 11. Departure: rotations are composed with the exponential, so that they stay rotations.
+// Line 11.
 RealtimeScape::Step RealtimeScape::Update() {
   Session& s = *session_;
   Step largest;
@@ -209,12 +280,16 @@ RealtimeScape::Step RealtimeScape::Update() {
     const Vector3d rotation = s.increment.segment<3>(kBlockSize * j);
     const Vector3d translation =
         settings_.length_unit_m * s.increment.segment<3>(kBlockSize * j + 3);
-    s.pose[j].rotation = NearestRotation<double>(ExpSo3<double>(rotation) * s.pose[j].rotation);
+    s.pose[j].rotation = Turned(s.pose[j].rotation, rotation, settings_.rotation_update);
     s.pose[j].center += translation;
     largest.rotation_rad = std::max(largest.rotation_rad, rotation.norm());
     largest.translation_m = std::max(largest.translation_m, translation.norm());
   }
-  PoseSurface();
+  if (!s.solved || IsTornApart(s.pose)) {
+    s.pose = s.last_pose;
+    s.solved = false;
+  }
+  PoseSurface(s.model, s.pose, s.surface);
   s.Lap(kUpdate);
   return largest;
 }
@@ -223,6 +298,13 @@ RealtimeScape::Step RealtimeScape::Update() {
 bool RealtimeScape::IsSmall(const Step& step) const {
   return step.rotation_rad < settings_.stopping.rotation_step_deg * std::numbers::pi / 180.0 &&
          step.translation_m < settings_.stopping.translation_step_m;
+}
+
+void RealtimeScape::EndFrame() {
+  Session& s = *session_;
+  s.sight.EndFrame(settings_.search.seen_share);
+  s.before_last_pose = s.last_pose;
+  s.last_pose = s.pose;
 }
 
 TrackResult RealtimeScape::Result(bool stopped_small, int iterations) {
@@ -238,6 +320,9 @@ TrackResult RealtimeScape::Result(bool stopped_small, int iterations) {
   } else if (explained < settings_.lost_below) {
     result.outcome = Outcome::kLost;
     result.message = fmt::format("the model explains {:.0f} % of the points", 100.0 * explained);
+  } else if (!s.solved) {
+    result.outcome = Outcome::kLost;
+    result.message = "the step has no solution or tears the body apart; the pose is carried over";
   } else {
     result.outcome = stopped_small ? Outcome::kConverged : Outcome::kIterationLimit;
     if (!stopped_small)
@@ -255,7 +340,7 @@ TrackResult RealtimeScape::Result(bool stopped_small, int iterations) {
     result.energies.push_back({kEnergyNames[k], s.energies[k]});
   for (std::size_t k = 0; k < kStepCount; ++k)
     result.step_ms.push_back({kStepNames[k], s.step_ms[k]});
-  result.condition = s.solver_summary.condition;
+  result.condition = iterations > 0 ? s.solver->EstimateCondition() : -1.0;
   return result;
 }
 

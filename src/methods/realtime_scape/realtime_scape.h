@@ -2,14 +2,8 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
-#include "geometry/zbuffer.h"
-#include "methods/realtime_scape/fit_term.h"
-#include "methods/realtime_scape/inertia_term.h"
-#include "methods/realtime_scape/joint_term.h"
 #include "methods/realtime_scape/settings.h"
-#include "solver/conjugate_gradients.h"
 #include "tracking/tracker.h"
 
 namespace vitruvia::realtime_scape {
@@ -30,16 +24,18 @@ class RealtimeScape final : public Tracker {
     double rotation_rad = 0.0, translation_m = 0.0;
   };
 
-  void BeginFrame(const DepthFrame& frame);
-  void PoseSurface();
+  bool BeginFrame(const DepthFrame& frame);
+  void Place();
+  void Predict();
   void Render();
-  void BuildVisibleTree();
   void Classify(const DepthFrame& frame);
+  void BuildCandidates();
   void FindPairs();
   void Assemble();
   void Solve();
   Step Update();
   bool IsSmall(const Step& step) const;
+  void EndFrame();
   TrackResult Result(bool stopped_small, int iterations);
 
   Settings settings_;

@@ -26,6 +26,24 @@ void FitSettings::Describe(Fields& f) {
                        "surface along its normal",
             .origin = Origin::kTuned,
             .source = "paper A: depth; see the report of realtime_scape/fig11"});
+  f.Choice("pair_residual", pair_residual,
+           {{"point", PairResidual::kPoint}, {"plane", PairResidual::kPlane}},
+           {.meaning = "what a V2 or P2 pair is asked to do: meet, or meet along the vertex's "
+                       "normal",
+            .origin = Origin::kPaper,
+            .source = "paper A, sec. 6.2: three rows each"});
+  f.Choice("rasterizer", rasterizer,
+           {{"all_triangles", Rasterizer::kAllTriangles}, {"front_faces", Rasterizer::kFrontFaces}},
+           {.meaning = "how the model's depth is drawn",
+            .origin = Origin::kTuned,
+            .source = "the same picture of a closed mesh in less time"});
+  f.Integer("visibility_iterations", visibility_iterations,
+            {.meaning = "the model is drawn anew in so many iterations of a frame; later ones use "
+                        "the last drawing",
+             .min = 1,
+             .max = 1000,
+             .origin = Origin::kPaper,
+             .source = "paper A, algorithm 1, line 5: in each"});
   f.Number("visible_within_m", visible_within_m,
            {.meaning = "a vertex is visible this close to the rendered depth at its pixel",
             .unit = "m",
@@ -50,6 +68,12 @@ void FitSettings::Describe(Fields& f) {
        .max = 8,
        .origin = Origin::kTuned,
        .source = "paper A: 0; pairs at silhouettes then pull at a model that fits"});
+  f.Choice("behind_surface", behind_surface,
+           {{"elsewhere", BehindSurface::kElsewhere}, {"hidden", BehindSurface::kHidden}},
+           {.meaning = "what a visible vertex behind the captured surface is: V2, or hidden by "
+                       "another part of the body and left alone",
+            .origin = Origin::kTuned,
+            .source = "paper A: V2; a limb that vanishes behind the body is then dragged along"});
   f.Number("smooth_m", smooth_m,
            {.meaning = "captured depth is interpolated between pixels that differ by no more",
             .unit = "m",
@@ -57,6 +81,24 @@ void FitSettings::Describe(Fields& f) {
             .max = 1,
             .origin = Origin::kGuessed,
             .source = "paper A is silent; 0 takes the nearest pixel"});
+  f.Choice("association", association,
+           {{"kd_tree", Association::kKdTree},
+            {"window", Association::kWindow},
+            {"exhaustive", Association::kExhaustive}},
+           {.meaning = "how the nearest points and vertices of V2 and P2 are found: by trees, in a "
+                       "window of the image, or by looking at all",
+            .origin = Origin::kTuned,
+            .source = "paper A: kd_tree; few queries are left, so that building trees costs more "
+                      "than it saves"});
+  if (f.Applies(association == Association::kWindow)) {
+    f.Integer("window_px", window_px,
+              {.meaning = "half width of the window at most",
+               .unit = "px",
+               .min = 0,
+               .max = 4096,
+               .origin = Origin::kGuessed,
+               .source = "0.08 m at 1 m and 320 columns"});
+  }
   f.Number("pair_cutoff_m", pair_cutoff_m,
            {.meaning = "V2 and P2 pairs farther apart are dropped",
             .unit = "m",
@@ -76,6 +118,101 @@ void FitSettings::Describe(Fields& f) {
             .max = 1e6,
             .origin = Origin::kPaper,
             .source = "paper A, eq. 7"});
+  f.Integer("surface_stride", surface_stride,
+            {.meaning = "every how many vertices of V1 one gets a row, of as many times the weight",
+             .min = 1,
+             .max = 64,
+             .origin = Origin::kPaper,
+             .source = "paper A: 1"});
+  f.Choice("kernel", kernel,
+           {{"none", RobustKernel::kNone},
+            {"huber", RobustKernel::kHuber},
+            {"tukey", RobustKernel::kTukey}},
+           {.meaning = "how rows that do not fit lose influence",
+            .origin = Origin::kTuned,
+            .source = "paper A: none; on configs/cmu/walk.json (diagonal) huber more than halves "
+                      "the mean error"});
+  if (f.Applies(kernel != RobustKernel::kNone)) {
+    f.Number(
+        "kernel_scale_m", kernel_scale_m,
+        {.meaning = "residual at which a row begins to lose influence (huber) or has none left "
+                    "(tukey)",
+         .unit = "m",
+         .min = 1e-6,
+         .max = 10,
+         .origin = Origin::kGuessed,
+         .source = "paper A is silent"});
+  }
+}
+
+void SearchSettings::Describe(Fields& f) {
+  f.Choice("candidates", candidates,
+           {{"visible", PairCandidates::kVisible}, {"reach", PairCandidates::kReach}},
+           {.meaning = "what a point of P2 may pull at: every visible vertex, or those of bones "
+                       "that lack points of their own, unseen ones too",
+            .origin = Origin::kTuned,
+            .source = "paper A: visible; a hand that comes out from behind the body then pulls at "
+                      "the body"});
+  if (!f.Applies(candidates == PairCandidates::kReach)) return;
+  f.Number("seen_share", seen_share,
+           {.meaning = "a bone is seen when this share of all its vertices is V1",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kTuned,
+            .source = "about 0.4 of a bone's vertices face the camera"});
+  f.Number("settled_share", settled_share,
+           {.meaning = "a bone is settled, and takes no points of P2, when more than this share of "
+                       "its visible vertices is V1",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kTuned,
+            .source = "configs/cmu/walk.json"});
+  f.Number(
+      "owned_m", owned_m,
+      {.meaning = "a point of P2 this close to a settled bone is that bone's and pulls at none",
+       .unit = "m",
+       .min = 0,
+       .max = 10,
+       .origin = Origin::kTuned,
+       .source = "configs/cmu/walk.json: skin differs by some centimetres at silhouettes"});
+  f.Number("growth_m", growth_m,
+           {.meaning = "the cutoff of a bone's pairs grows by this for each frame in which it was "
+                       "not seen",
+            .unit = "m",
+            .min = 0,
+            .max = 10,
+            .origin = Origin::kTuned,
+            .source = "configs/cmu/walk.json"});
+  f.Number("reach_m", reach_m,
+           {.meaning = "and to this at most",
+            .unit = "m",
+            .min = 0,
+            .max = 10,
+            .origin = Origin::kTuned,
+            .source = "configs/cmu/walk.json"});
+}
+
+void MotionSettings::Describe(Fields& f) {
+  f.Choice("model", model,
+           {{"constant_rotation", MotionModel::kConstantRotation},
+            {"constant_velocity", MotionModel::kConstantVelocity}},
+           {.meaning = "where a frame starts and what inertia holds on to",
+            .origin = Origin::kTuned,
+            .source = "paper A: constant_rotation"});
+  if (!f.Applies(model == MotionModel::kConstantVelocity)) return;
+  f.Number(
+      "velocity_share", velocity_share,
+      {.meaning = "share of the last step that is expected again",
+       .min = 0,
+       .max = 1,
+       .origin = Origin::kTuned,
+       .source = "realtime_scape/fig11 and cmu/walk: 1 needs fewer iterations, 0.8 errs less"});
+  f.Number("hidden_decay", hidden_decay,
+           {.meaning = "what is left of it with each frame in which the bone was not seen",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kGuessed,
+            .source = "a limb out of sight comes to rest within half a second"});
 }
 
 void StoppingSettings::Describe(Fields& f) {
@@ -110,18 +247,37 @@ void StoppingSettings::Describe(Fields& f) {
 }
 
 void SolverSettings::Describe(Fields& f) {
-  f.Number("relative_tolerance", relative_tolerance,
-           {.meaning = "conjugate gradients stop when the residual has fallen by this factor",
-            .min = 1e-15,
-            .max = 0.5,
-            .origin = Origin::kGuessed,
-            .source = "paper A is silent"});
-  f.Integer("max_iterations", max_iterations,
-            {.meaning = "conjugate gradient iterations at most",
-             .min = 1,
-             .max = 10000,
-             .origin = Origin::kGuessed,
-             .source = "twice the 102 unknowns"});
+  f.Choice("kind", linear.kind,
+           {{"cg", LinearSolverKind::kConjugateGradients},
+            {"pcg", LinearSolverKind::kPreconditionedConjugateGradients},
+            {"cholesky", LinearSolverKind::kDenseCholesky},
+            {"sparse_cholesky", LinearSolverKind::kSparseCholesky}},
+           {.meaning = "how the normal equations are solved",
+            .origin = Origin::kTuned,
+            .source = "paper A: conjugate gradients, preconditioner not said"});
+  const bool iterative = linear.kind == LinearSolverKind::kConjugateGradients ||
+                         linear.kind == LinearSolverKind::kPreconditionedConjugateGradients;
+  if (f.Applies(iterative)) {
+    f.Number("relative_tolerance", linear.relative_tolerance,
+             {.meaning = "conjugate gradients stop when the residual has fallen by this factor",
+              .min = 1e-15,
+              .max = 0.5,
+              .origin = Origin::kGuessed,
+              .source = "paper A is silent"});
+    f.Integer("max_iterations", linear.max_iterations,
+              {.meaning = "conjugate gradient iterations at most",
+               .min = 1,
+               .max = 10000,
+               .origin = Origin::kGuessed,
+               .source = "twice the 102 unknowns"});
+  }
+  if (f.Applies(!iterative)) {
+    f.Choice("precision", linear.precision,
+             {{"double", Precision::kDouble}, {"float", Precision::kFloat}},
+             {.meaning = "of Cholesky's factors",
+              .origin = Origin::kGuessed,
+              .source = "paper A is silent"});
+  }
   f.Number(
       "damping", damping,
       {.meaning = "added to the diagonal of the normal equations (energy per rad² or length unit²)",
@@ -150,6 +306,8 @@ void PlacementSettings::Describe(Fields& f) {
 void Settings::Describe(Fields& f) {
   f.Section("cloud", cloud, {.meaning = "the observed points P"});
   f.Section("fit", fit, {.meaning = "term 1, goodness of fit"});
+  f.Section("search", search, {.meaning = "whose the unexplained points are"});
+  f.Section("motion", motion, {.meaning = "what is expected of the next frame"});
   f.Choice(
       "joint_rows", joint_rows,
       {{"joint_position", JointRows::kJointPosition},
@@ -191,8 +349,16 @@ void Settings::Describe(Fields& f) {
        .source =
            "paper A is silent. On realtime_scape/fig11 0.03 … 0.08 all meet the paper's figures; "
            "at 1 the inertia lags (16 mm mean error), at 0.01 limbs twist (171 mm maximum)"});
+  f.Choice("rotation_update", rotation_update,
+           {{"linear", RotationUpdate::kLinear},
+            {"linear_orthonormal", RotationUpdate::kLinearOrthonormal},
+            {"exponential", RotationUpdate::kExponential}},
+           {.meaning = "how a rotation takes its step: R ← (I + r̂) R, the rotation nearest to "
+                       "that, or R ← exp(r̂) R",
+            .origin = Origin::kTuned,
+            .source = "paper A, sec. 6.2: linear, which drifts away from the rotations"});
   f.Section("stopping", stopping, {.meaning = "when a frame is done"});
-  f.Section("solver", solver, {.meaning = "conjugate gradients"});
+  f.Section("solver", solver, {.meaning = "the linear solver"});
   f.Section("placement", placement, {.meaning = "how the rest pose is put onto the first frame"});
   f.Number("lost_below", lost_below,
            {.meaning =

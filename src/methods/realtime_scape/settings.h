@@ -2,6 +2,9 @@
 #pragma once
 
 #include "core/settings.h"
+#include "geometry/mesh_rasterizer.h"
+#include "matching/classification.h"
+#include "solver/linear_solver.h"
 
 namespace vitruvia::realtime_scape {
 
@@ -11,6 +14,35 @@ enum class SurfaceResidual {
            // pixel
   kPlane,  // ours: its distance from the captured point along the model's normal, which lets it
            // slide
+};
+
+// What a pair of V2 or P2 is asked to do.
+enum class PairResidual {
+  kPoint,  // paper: to meet, in all three coordinates
+  kPlane,  // to meet along the vertex's normal: it may slide
+};
+
+// How a residual that does not fit loses influence.
+enum class RobustKernel { kNone, kHuber, kTukey };
+
+// Which vertices a point that nothing explains (P2) may pull at.
+enum class PairCandidates {
+  kVisible,  // paper: the visible ones
+  kReach,  // ours: those of bones that lack points, also unseen ones, which are looked for farther
+           // away the longer they were not seen
+};
+
+// How a rotation takes its step.
+enum class RotationUpdate {
+  kLinear,  // paper, to the letter: R ← (I + r̂) R, which is no rotation and grows without bound
+  kLinearOrthonormal,  // paper, read kindly: the rotation nearest to that
+  kExponential,        // ours: R ← exp(r̂) R
+};
+
+// Where a frame starts, and what inertia holds on to.
+enum class MotionModel {
+  kConstantRotation,  // paper: the last frame's pose and local rotations
+  kConstantVelocity,  // ours: joints turn on as they did
 };
 
 // What holds two neighbouring bones together.
@@ -28,12 +60,38 @@ struct CloudSettings {
 
 struct FitSettings {
   SurfaceResidual surface_residual = SurfaceResidual::kPlane;
+  PairResidual pair_residual = PairResidual::kPoint;
+  Rasterizer rasterizer = Rasterizer::kFrontFaces;
+  int visibility_iterations = 1000;
   double visible_within_m = 0.002;
   double near_surface_m = 0.05;
   int edge_px = 1;
+  BehindSurface behind_surface = BehindSurface::kHidden;
   double smooth_m = 0.02;
+  Association association = Association::kExhaustive;
+  int window_px = 24;
   double pair_cutoff_m = 0.08;
   double surface_weight = 1.0, pair_weight = 1.0;
+  int surface_stride = 1;
+  RobustKernel kernel = RobustKernel::kHuber;
+  double kernel_scale_m = 0.01;
+  void Describe(Fields& fields);
+};
+
+struct SearchSettings {
+  PairCandidates candidates = PairCandidates::kReach;
+  double seen_share = 0.05;
+  double settled_share = 0.9;
+  double owned_m = 0.04;
+  double growth_m = 0.02;  // for each frame
+  double reach_m = 0.4;
+  void Describe(Fields& fields);
+};
+
+struct MotionSettings {
+  MotionModel model = MotionModel::kConstantVelocity;
+  double velocity_share = 0.8;
+  double hidden_decay = 0.8;
   void Describe(Fields& fields);
 };
 
@@ -46,9 +104,8 @@ struct StoppingSettings {
 };
 
 struct SolverSettings {
-  double relative_tolerance = 1e-6;
-  int max_iterations = 204;  // twice the number of unknowns
-  double damping = 1e-9;     // energy per squared radian or metre
+  LinearSolverOptions linear;
+  double damping = 1e-9;  // energy per squared radian or length unit
   void Describe(Fields& fields);
 };
 
@@ -61,11 +118,14 @@ struct PlacementSettings {
 struct Settings {
   CloudSettings cloud;
   FitSettings fit;
+  SearchSettings search;
+  MotionSettings motion;
   JointRows joint_rows = JointRows::kJointPosition;
   double joint_weight = 10.0;
   double inertia_weight = 5.0;
   double axis_weight = 1.0;
   double length_unit_m = 0.05;
+  RotationUpdate rotation_update = RotationUpdate::kExponential;
   StoppingSettings stopping;
   SolverSettings solver;
   PlacementSettings placement;

@@ -1,0 +1,44 @@
+#include "methods/realtime_scape/prediction.h"
+
+#include <cmath>
+
+namespace vitruvia::realtime_scape {
+namespace {
+
+// Where a bone's joint with its parent is, by the one bone and by the other.
+Vector3d JointUnder(const Model& model, const BodyPose& pose, int bone, int joint) {
+  return pose[bone].center +
+         pose[bone].rotation * (model.skeleton.joints[joint] - model.rest_centers[bone]);
+}
+
+}  // namespace
+
+Prediction PredictPose(const Model& model, const BodyPose& last, const BodyPose& before_last,
+                       const BoneSight& sight, const MotionSettings& settings) {
+  Prediction prediction{last, LocalRotationsOf(last)};
+  if (settings.model == MotionModel::kConstantRotation) return prediction;
+
+  const LocalRotations before = LocalRotationsOf(before_last);
+  for (int j = 0; j < kBoneCount; ++j) {
+    const double share =
+        settings.velocity_share * std::pow(settings.hidden_decay, sight.frames_unseen(j));
+    Matrix3<double>& local = prediction.local_rotations[j];
+    const Matrix3<double> turned = before[j].transpose() * local;
+    local = local * ExpSo3<double>(share * LogSo3<double>(turned));
+
+    BonePose& bone = prediction.pose[j];
+    const int parent = Bones()[j].parent;
+    if (parent < 0) {
+      bone.rotation = local;
+      bone.center += share * (last[j].center - before_last[j].center);
+      continue;
+    }
+    const Vector3d gap = JointUnder(model, last, j, j) - JointUnder(model, last, parent, j);
+    bone.rotation = prediction.pose[parent].rotation * local;
+    bone.center = JointUnder(model, prediction.pose, parent, j) + gap -
+                  bone.rotation * (model.skeleton.joints[j] - model.rest_centers[j]);
+  }
+  return prediction;
+}
+
+}  // namespace vitruvia::realtime_scape
