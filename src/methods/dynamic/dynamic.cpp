@@ -105,6 +105,7 @@ struct Dynamic::Session {
   bool placed = false;
   Rigidd camera_from_start;  // T_world
   Eigen::VectorXd theta;
+  Eigen::VectorXd theta_before, step;  // of the last frame; from it to where this one begins
   TreePose pose;
   PoseEquations equations;
 
@@ -179,6 +180,15 @@ void Dynamic::Place() {
   s.placed = true;
 }
 
+// A frame begins where the joints would be if they went on as they did, or a share of that.
+void Dynamic::Predict() {
+  Session& s = *session_;
+  s.step = settings_.pose.prediction * (s.theta - s.theta_before);
+  s.theta_before = s.theta;
+  s.theta += s.step;
+  s.tree.Clamp(s.theta);
+}
+
 void Dynamic::FitPose(bool first) {
   Session& s = *session_;
   const PoseSettings& settings = settings_.pose;
@@ -186,6 +196,7 @@ void Dynamic::FitPose(bool first) {
   const AssociationLimits limits = LimitsOf(a.window_px, a.cutoff_m, a.facing_cosine);
   const int limit = first ? settings.first_frame_iterations : settings.iterations;
   Level& level = s.pose_level();
+  if (!first) Predict();
   while (s.iterations < limit && !s.converged && s.solved) {
     s.tree.Pose(s.camera_from_start, s.theta, s.pose);
     level.Match(s.pose, limits, s.team, s.times);
@@ -199,6 +210,7 @@ void Dynamic::FitPose(bool first) {
     s.converged = s.solved && step.rotation_rad < settings.rotation_step_deg * kRadiansPerDegree &&
                   step.translation_m < settings.translation_step_m;
   }
+  if (first) s.theta_before = s.theta;
   s.matched_share = level.MatchedShare();
   s.tree.Pose(s.camera_from_start, s.theta, s.pose);
 }
@@ -212,7 +224,7 @@ void Dynamic::FitShape(bool first) {
   if (now) {
     const ShapeWeights weights{static_cast<float>(settings.magnitude_weight),
                                static_cast<float>(settings.neighbor_weight)};
-    const AssociationLimits limits = LimitsOf(a.window_px, a.cutoff_m, a.facing_cosine);
+    const AssociationLimits limits = LimitsOf(a.window_px, settings.cutoff_m, a.facing_cosine);
     const int iterations = first ? settings.first_frame_iterations : settings.iterations;
     for (int i = 0; i < iterations; ++i) {
       s.fine.Match(s.pose, limits, s.team, s.times);

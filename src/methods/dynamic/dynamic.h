@@ -26,6 +26,7 @@ class Dynamic final : public Tracker {
 
   void BeginFrame(const DepthFrame& frame);
   void Place();
+  void Predict();
   void FitPose(bool first);
   void FitShape(bool first);
   TrackResult Result() const;

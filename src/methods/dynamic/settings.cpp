@@ -10,7 +10,7 @@ void AssociationSettings::Describe(Fields& f) {
              .min = 0,
              .max = 1000,
              .origin = Origin::kGuessed,
-             .source = "paper B is silent; holds the cutoff's 0.08 m at 2 m and 365 px of focal "
+             .source = "paper B is silent; holds the cutoff's 0.12 m at 1.4 m and 365 px of focal "
                        "length"});
   f.Number("cutoff_m", cutoff_m,
            {.meaning = "vertices farther from a point than this are not taken",
@@ -18,7 +18,7 @@ void AssociationSettings::Describe(Fields& f) {
             .min = 1e-4,
             .max = 10,
             .origin = Origin::kGuessed,
-            .source = "paper B is silent; a hand at 2.4 m/s between frames of 30 Hz"});
+            .source = "paper B is silent; a hand at 3.6 m/s between frames of 30 Hz"});
   f.Number("facing_cosine", facing_cosine,
            {.meaning = "a vertex is taken only if the angle between its normal and the line of "
                        "sight has at least this cosine",
@@ -56,6 +56,13 @@ void PoseSettings::Describe(Fields& f) {
              .max = 1000,
              .origin = Origin::kGuessed,
              .source = "paper B is silent"});
+  f.Number("prediction", prediction,
+           {.meaning = "share of the last frame's motion of each joint that a frame begins with",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kTuned,
+            .source = "paper B starts from the last pose, 0: then boxing arms are lost within 40 "
+                      "frames of dynamic_close, which 0.8 follows"});
   f.Number("damping", damping,
            {.meaning = "λ of the damped least squares, per rad² and m² of a joint",
             .min = 0,
@@ -106,6 +113,13 @@ void ShapeSettings::Describe(Fields& f) {
              .max = 1000,
              .origin = Origin::kGuessed,
              .source = "paper B is silent; shape match has no other frame to fit"});
+  f.Number("cutoff_m", cutoff_m,
+           {.meaning = "vertices farther from a point than this take no part in its shape",
+            .unit = "m",
+            .min = 1e-4,
+            .max = 10,
+            .origin = Origin::kGuessed,
+            .source = "paper B is silent; deeper than cloth folds, nearer than the next limb"});
   f.Number("magnitude_weight", magnitude_weight,
            {.meaning = "λ_d of eq. 9, against the length of a warp",
             .min = 0,

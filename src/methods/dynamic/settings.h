@@ -16,8 +16,8 @@ enum class Mode {
 };
 
 struct AssociationSettings {
-  int window_px = 16;
-  double cutoff_m = 0.08;
+  int window_px = 32;
+  double cutoff_m = 0.12;
   double facing_cosine = 0.1;
   int pose_pixel_stride = 1;
   int pose_vertex_stride = 1;
@@ -27,6 +27,7 @@ struct AssociationSettings {
 struct PoseSettings {
   int iterations = 10;
   int first_frame_iterations = 30;
+  double prediction = 0.8;
   double damping = 0.01;
   double default_pose_weight = 1e-6;
   double held_below_share = 0.01;
@@ -38,6 +39,7 @@ struct PoseSettings {
 struct ShapeSettings {
   int iterations = 2;
   int first_frame_iterations = 20;
+  double cutoff_m = 0.04;
   double magnitude_weight = 0.01;
   double neighbor_weight = 0.2;
   void Describe(Fields& fields);
