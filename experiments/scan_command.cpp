@@ -8,6 +8,7 @@
 #include "core/files.h"
 #include "experiments/scan.h"
 #include "geometry/mesh_io.h"
+#include "synth/scan/record_scan.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -32,8 +33,17 @@ void PrintSummary(const ScanResult& result) {
              truth.path.rotation_mean_deg, truth.path.rotation_max_deg);
 }
 
-void ScanToFolder(const fs::path& config, const fs::path& output) {
-  const ScanSettings settings = ReadScanSettings(config);
+void StoreFrames(const ScanSettings& settings, const fs::path& folder) {
+  if (settings.source != ScanSource::kScene) {
+    throw ConfigError(
+        "scan: --store-frames: expected a config whose source is a scene; the frames "
+        "of a sequence are stored already");
+  }
+  RecordScan(settings.scene, folder);
+  fmt::print("{}\n", folder.string());
+}
+
+void ScanToFolder(const ScanSettings& settings, const fs::path& output) {
   StagedFolder folder(output, kRecordName);
   const ScanResult result = Scan(settings);
   WriteMesh(folder.path() / "scan.ply", result.surface.mesh);
@@ -44,8 +54,17 @@ void ScanToFolder(const fs::path& config, const fs::path& output) {
 }
 
 struct Arguments {
-  fs::path config, output;
+  fs::path config, output, frames;
 };
+
+void CarryOut(const Arguments& arguments) {
+  if (arguments.output.empty() && arguments.frames.empty()) {
+    throw ConfigError("scan: expected -o DIR for the scan, or --store-frames DIR");
+  }
+  const ScanSettings settings = ReadScanSettings(arguments.config);
+  if (!arguments.frames.empty()) StoreFrames(settings, arguments.frames);
+  if (!arguments.output.empty()) ScanToFolder(settings, arguments.output);
+}
 
 }  // namespace
 
@@ -53,8 +72,10 @@ void AddScanCommand(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* scan = app.add_subcommand("scan", "Scan a subject with a moving depth camera");
   scan->add_option("CONFIG", arguments->config, "scan config file")->required();
-  scan->add_option("-o,--output", arguments->output, "folder of the scan")->required();
-  scan->callback([arguments] { ScanToFolder(arguments->config, arguments->output); });
+  scan->add_option("-o,--output", arguments->output, "folder of the scan: scan.ply, scan.json");
+  scan->add_option("--store-frames", arguments->frames,
+                   "also write the scene's depth frames, as a sequence, to this folder");
+  scan->callback([arguments] { CarryOut(*arguments); });
 }
 
 }  // namespace vitruvia

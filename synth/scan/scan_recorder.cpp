@@ -164,6 +164,11 @@ ScanFrame ScanRecorder::Render(int frame) {
   const DepthImage true_depth = renderer_->Render(vertices, triangles);
   RandomStream noise(static_cast<std::uint64_t>(settings_.seed), fmt::format("sensor/{}", frame));
   ScanFrame result;
+  result.vertices.assign(vertices.begin(),
+                         vertices.begin() + static_cast<std::ptrdiff_t>(body.size()));
+  for (const Vector3d& joint : PosedJoints(body_.skeleton, bones)) {
+    result.joints.push_back(camera_from_floor * joint);
+  }
   result.depth = Measure(true_depth, settings_.camera, settings_.sensor, noise);
   Quantize(result.depth, settings_.sensor.depth_unit_m);
   result.camera_from_subject = camera_from_floor * bones[static_cast<std::size_t>(BoneId::kChest)] *

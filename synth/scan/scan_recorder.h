@@ -14,6 +14,9 @@ struct ScanFrame {
   // From the subject as it stood at the first frame. The subject sways, and a scan can only know
   // where the camera is relative to it: this follows the chest.
   Rigidd camera_from_subject;
+  // The swaying subject's surface and joints, camera frame.
+  std::vector<Vector3f> vertices;
+  std::vector<Vector3d> joints;
 };
 
 class ScanRecorder {
