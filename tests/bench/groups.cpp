@@ -6,11 +6,13 @@ namespace vitruvia::bench {
 
 std::vector<Row> FitShape();
 std::vector<Row> LearnWeights();
+std::vector<Row> Scan();
 
 std::span<const Group> Groups() {
   static constexpr std::array kGroups = {
       Group{"fit_shape", FitShape},
       Group{"learn_weights", LearnWeights},
+      Group{"scan", Scan},
   };
   return kGroups;
 }
