@@ -211,6 +211,9 @@ void Dynamic::FitPose(bool first) {
                   step.translation_m < settings.translation_step_m;
   }
   if (first) s.theta_before = s.theta;
+  for (int k = 0; k < s.tree.joint_count(); ++k) {  // what is held does not go on by prediction
+    if (s.iterations > 0 && s.solver.IsHeld(k)) s.theta[k] = s.theta_before[k];
+  }
   s.matched_share = level.MatchedShare();
   s.tree.Pose(s.camera_from_start, s.theta, s.pose);
 }

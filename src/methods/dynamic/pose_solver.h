@@ -35,6 +35,7 @@ class PoseSolver {
   bool solved() const { return solved_; }
   double condition() const { return condition_; }  // of the solved system, an estimate; −1: none
   int held() const { return held_; }
+  bool IsHeld(int joint) const { return is_held_[joint] != 0; }  // in the last step
   // Vertices that a joint moves: its bones' weights, summed.
   double MovedVertices(int joint) const { return moved_[joint]; }
 
