@@ -117,4 +117,13 @@ void ScanSceneSettings::Describe(Fields& f) {
   f.Integer("seed", seed, {.meaning = "seed of the hand's unsteadiness and the noise", .min = 0});
 }
 
+std::string ScanSceneSettings::Problem() const {
+  const DeliverySettings& d = sensor.delivery;
+  if (d.latency_s != 0.0 || d.drop_share != 0.0 || d.gap_start >= 0) {
+    return "sensor.delivery: a scan is fused from all its frames, however late; expected none lost "
+           "and no latency";
+  }
+  return "";
+}
+
 }  // namespace vitruvia

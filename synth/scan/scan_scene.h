@@ -57,6 +57,7 @@ struct ScanSceneSettings {
   int seed = 1;
 
   void Describe(Fields& fields);
+  std::string Problem() const;
 };
 
 }  // namespace vitruvia
