@@ -9,20 +9,32 @@
 namespace vitruvia {
 namespace fs = std::filesystem;
 
-std::string WorkKey(const Json& resolved, const std::vector<fs::path>& input_files) {
+namespace {
+
+void AddNamedFiles(const Json& json, Hash64& hash) {
+  if (json.is_string()) {
+    const fs::path file = json.get<std::string>();
+    std::error_code not_a_file;  // texts of all kinds are asked
+    if (fs::is_regular_file(file, not_a_file)) hash.AddFile(file);
+  }
+  if (json.is_structured()) {
+    for (const Json& item : json) AddNamedFiles(item, hash);
+  }
+}
+
+}  // namespace
+
+std::string WorkKey(const Json& resolved) {
   Hash64 hash;
   hash.Add(GetBuildInfo().build_id).Add(resolved.dump());
-  for (const fs::path& file : input_files) {
-    if (fs::is_regular_file(file)) hash.AddFile(file);
-  }
+  AddNamedFiles(resolved, hash);
   return hash.Hex();
 }
 
-KeptFolder::KeptFolder(const fs::path& cache, const std::string& name, const Json& resolved,
-                       const std::vector<fs::path>& input_files)
+KeptFolder::KeptFolder(const fs::path& cache, const std::string& name, const Json& resolved)
     : folder_(cache / fmt::format("{}-{}", name, Hash64().Add(resolved.dump()).Hex())),
       marker_(folder_.string() + ".key"),
-      key_(WorkKey(resolved, input_files)) {
+      key_(WorkKey(resolved)) {
   MakeFolder(cache);
 }
 

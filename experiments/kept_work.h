@@ -4,21 +4,19 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "core/json_settings.h"
 
 namespace vitruvia {
 
-// What a stored result depends on: settings, input files and the program. Two equal keys mean that
-// doing the work again would change nothing but the clock.
-std::string WorkKey(const Json& resolved, const std::vector<std::filesystem::path>& input_files);
+// What a stored result depends on: settings, the content of every file that they name, and the
+// program. Two equal keys mean that doing the work again would change nothing but the clock.
+std::string WorkKey(const Json& resolved);
 
 class KeptFolder {
  public:
   // `cache`/NAME-HASH, the hash that of the resolved settings.
-  KeptFolder(const std::filesystem::path& cache, const std::string& name, const Json& resolved,
-             const std::vector<std::filesystem::path>& input_files = {});
+  KeptFolder(const std::filesystem::path& cache, const std::string& name, const Json& resolved);
 
   const std::filesystem::path& path() const { return folder_; }
   // Whether the folder is there, whole, and of this very key.

@@ -12,11 +12,6 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
-std::string ResultKey(const RunPlan& run) {
-  return WorkKey(run.resolved,
-                 {run.scene_settings.motion.file, run.scene_settings.motion.skeleton});
-}
-
 // Reads a small marker file; "" where there is none.
 std::string MarkerOf(const fs::path& file) {
   return fs::is_regular_file(file) ? ReadWholeFile(file) : "";
@@ -96,8 +91,7 @@ void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
 
 fs::path ObtainSequence(const std::string& name, const SceneSettings& scene,
                         const fs::path& sequences) {
-  const KeptFolder kept(sequences, name, WriteSettings(scene),
-                        {scene.motion.file, scene.motion.skeleton});
+  const KeptFolder kept(sequences, name, WriteSettings(scene));
   if (kept.complete()) return kept.path();
   SynthesizeSequence(scene, kept.path());
   kept.MarkComplete();
@@ -108,7 +102,7 @@ std::vector<PlannedRun> TrackingRuns(const ExperimentPlan& plan, const fs::path&
                                      const WorkFolders& work) {
   std::vector<PlannedRun> runs;
   for (const RunPlan& run : plan.runs) {
-    runs.push_back({run.run_id, ResultKey(run),
+    runs.push_back({run.run_id, WorkKey(run.resolved),
                     [&run, name = plan.record.name, folder, work](const fs::path& run_folder) {
                       RunRecord record = CarryOut(run, name, folder, work);
                       WriteWholeFile(run_folder / "log", LogOf(run_folder / "estimate"));

@@ -67,6 +67,12 @@ std::vector<SurfaceStrip> Strips(const std::string& person, const ScanResult& sc
             {"error, from behind", 180.0, {errors}}}}};
 }
 
+Json Resolved(const Study& study, std::size_t scan) {
+  return {{"learning", WriteSettings(study.learning)},
+          {"scan", WriteSettings(study.scans[scan])},
+          {"fit", WriteSettings(study.settings.fit)}};
+}
+
 RunRecord CarryOut(const Study& study, std::size_t scan_number, int person_number,
                    const std::string& experiment, const std::string& run_id,
                    const fs::path& run_folder) {
@@ -91,9 +97,7 @@ RunRecord CarryOut(const Study& study, std::size_t scan_number, int person_numbe
   record.variant = study.settings.scans[scan_number].name;
   record.scene = person;
   record.method = kMethod;
-  record.config = {{"learning", WriteSettings(study.learning)},
-                   {"scan", WriteSettings(study.scans[scan_number])},
-                   {"fit", WriteSettings(study.settings.fit)}};
+  record.config = Resolved(study, scan_number);
   record.provenance = Provenance();
   record.summary = {
       {"run_id", run_id},
@@ -116,10 +120,8 @@ RunRecord CarryOut(const Study& study, std::size_t scan_number, int person_numbe
 }
 
 std::string RunId(const Study& study, std::size_t scan, int person) {
-  const Json resolved = {WriteSettings(study.learning), WriteSettings(study.scans[scan]),
-                         WriteSettings(study.settings.fit)};
   return fmt::format("{}.s{:03}.{}", study.settings.scans[scan].name, person,
-                     Hash64().Add(resolved.dump()).Hex().substr(0, 8));
+                     Hash64().Add(Resolved(study, scan).dump()).Hex().substr(0, 8));
 }
 
 }  // namespace
@@ -196,7 +198,7 @@ Experiment PlanShapeStudy(const fs::path& file, const WorkFolders& work) {
       const std::string run_id = RunId(*study, scan, person);
       experiment.record.run_ids.push_back(run_id);
       experiment.runs.push_back(
-          {run_id, WorkKey(run_id, {}),
+          {run_id, WorkKey(Resolved(*study, scan)),
            [study, scan, person, run_id, name = experiment.record.name](const fs::path& folder) {
              return CarryOut(*study, scan, person, name, run_id, folder);
            }});
