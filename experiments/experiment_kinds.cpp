@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "experiments/shape_study.h"
+#include "experiments/weight_study.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -30,8 +31,10 @@ struct Kind {
 const std::vector<Kind>& Kinds() {
   static const std::vector<Kind> kinds = {
       {"tracking", PlanTracking},
-      {"intrinsic_shape", [](const fs::path& file, const fs::path&, const WorkFolders& work) {
-         return PlanShapeStudy(file, work);
+      {"intrinsic_shape", [](const fs::path& file, const fs::path&,
+                             const WorkFolders& work) { return PlanShapeStudy(file, work); }},
+      {"skinning_weights", [](const fs::path& file, const fs::path&, const WorkFolders& work) {
+         return PlanWeightStudy(file, work);
        }}};
   return kinds;
 }

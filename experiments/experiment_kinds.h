@@ -13,8 +13,8 @@ struct Experiment {
   std::vector<PlannedRun> runs;
 };
 
-// "tracking" (the default; experiment_config.h) or "intrinsic_shape" (shape_study.h). Throws
-// ConfigError before anything has run.
+// "tracking" (the default; experiment_config.h), "intrinsic_shape" (shape_study.h) or
+// "skinning_weights" (weight_study.h). Throws ConfigError before anything has run.
 Experiment PlanAnyExperiment(const std::filesystem::path& experiment_file,
                              const std::filesystem::path& folder, const WorkFolders& work);
 

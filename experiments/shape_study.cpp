@@ -80,7 +80,7 @@ RunRecord CarryOut(const Study& study, std::size_t scan_number, int person_numbe
   const BodyModel truth =
       Refine(Population(study.learning.database.population).Subject(person_number),
              study.learning.database.mesh);
-  const std::string person = fmt::format("s{:03}", person_number);
+  const std::string person = SubjectName(person_number);
   const ScanResult scan = ScanPerson(study.scans[scan_number], truth);
   const ScannedSurface surface = SurfaceOf(scan.surface.mesh);
   const Stopwatch watch;

@@ -9,19 +9,6 @@
 namespace vitruvia {
 namespace {
 
-PoseExamples MakeExamples(const DatabaseSettings& settings, const std::string& name,
-                          const ControlBody& body) {
-  RandomStream random(static_cast<std::uint64_t>(settings.population.seed), "poses of " + name);
-  RefinementSettings refinement = settings.mesh;
-  refinement.weight_diffusion = settings.poses.weight_diffusion;
-  const BodyModel deforming = Refine(body, refinement);
-  PoseExamples examples{name, {}};
-  for (const JointPose& pose : DrawPoses(settings.poses, body.skeleton, random)) {
-    examples.poses.push_back(Deform(settings.poses, deforming, pose, random));
-  }
-  return examples;
-}
-
 Json HowExamplesWereMade(const DatabaseSettings& settings) {
   return {fmt::format("dual-quaternion skinning by the rig's weights, diffused over {} steps",
                       settings.poses.weight_diffusion),
@@ -50,6 +37,21 @@ std::string DatabaseSettings::Problem() const {
                      population.subjects, subjects_with_poses);
 }
 
+PoseExamples MakePoseExamples(const DatabaseSettings& settings, const std::string& name,
+                              const ControlBody& body) {
+  RandomStream random(static_cast<std::uint64_t>(settings.population.seed), "poses of " + name);
+  RefinementSettings refinement = settings.mesh;
+  refinement.weight_diffusion = settings.poses.weight_diffusion;
+  const BodyModel deforming = Refine(body, refinement);
+  PoseExamples examples{name, {}};
+  for (const JointPose& pose : DrawPoses(settings.poses, body.skeleton, random)) {
+    examples.poses.push_back(Deform(settings.poses, deforming, pose, random));
+  }
+  return examples;
+}
+
+std::string SubjectName(int number) { return fmt::format("s{:03}", number); }
+
 BodyDatabase MakeDatabase(const DatabaseSettings& settings) {
   Population population(settings.population);
   BodyDatabase database;
@@ -58,9 +60,9 @@ BodyDatabase MakeDatabase(const DatabaseSettings& settings) {
     ThrowIfInterrupted();
     const ControlBody body = population.Subject(number);
     BodyModel model = Refine(body, settings.mesh);
-    const std::string name = fmt::format("s{:03}", number);
+    const std::string name = SubjectName(number);
     if (number < settings.subjects_with_poses) {
-      database.examples.push_back(MakeExamples(settings, name, body));
+      database.examples.push_back(MakePoseExamples(settings, name, body));
     }
     database.subjects.push_back(
         {name, model.attributes, model.skeleton, std::move(model.rest.vertices)});

@@ -18,7 +18,13 @@ struct DatabaseSettings {
   std::string Problem() const;
 };
 
-// Same settings: the same database. Subjects are called "s000", "s001", …; the first
+// The poses that a subject of the population, of that name, is given as examples.
+PoseExamples MakePoseExamples(const DatabaseSettings& settings, const std::string& name,
+                              const ControlBody& body);
+// "s000", "s001", …
+std::string SubjectName(int number);
+
+// Same settings: the same database. The first
 // subjects_with_poses of them have pose examples. How examples differ from linear blend skinning
 // stands in the provenance.
 BodyDatabase MakeDatabase(const DatabaseSettings& settings);
