@@ -67,8 +67,7 @@ Decomposition Learn(const BodyModel& body, const Examples& examples, int alterna
   settings.alternations = alternations;
   settings.least_gain = 0.0;
   const Labels labels = HeaviestBones(body.weights);
-  const BoneGraph candidates =
-      CandidateBones(labels, body.rest.triangles, kBoneCount, settings);
+  const BoneGraph candidates = CandidateBones(labels, body.rest.triangles, kBoneCount, settings);
   return Decompose(examples, labels, candidates, settings);
 }
 
