@@ -40,11 +40,9 @@ std::vector<Row> FitShape() {
   std::vector<int> training;
   for (int s = 0; s < kPeople - kHeldOut; ++s) training.push_back(s);
   ShapeSpace space;
-  const double learn_ms = MedianMs(1, [&] {
-    space = LearnShapeSpace(database, training, {.components = kComponents});
-  });
-  const ShapeSpace tracking =
-      OnTrackingMesh(space, MakeTrackingTemplate(space.reference.rest));
+  const double learn_ms = MedianMs(
+      1, [&] { space = LearnShapeSpace(database, training, {.components = kComponents}); });
+  const ShapeSpace tracking = OnTrackingMesh(space, MakeTrackingTemplate(space.reference.rest));
   IntrinsicShapeSettings settings;
   settings.components = kComponents;
   std::vector<double> fit_ms, error_mm;
