@@ -14,7 +14,7 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
-struct Arguments {
+struct LearnWeightsArguments {
   WeightExampleFiles files;
   fs::path settings, output;
 };
@@ -30,7 +30,7 @@ void Print(const skinning::Decomposition& result) {
   fmt::print("ended: {}; RMSE {:.6f} mm\n", skinning::Name(result.ending), 1e3 * result.rmse_m);
 }
 
-void LearnWeights(const Arguments& a) {
+void LearnWeights(const LearnWeightsArguments& a) {
   const auto settings =
       a.settings.empty() ? skinning::Settings() : ReadSettingsFile<skinning::Settings>(a.settings);
   WeightExamples read = ReadWeightExamples(a.files);
@@ -83,7 +83,7 @@ void AddLearnComparisonCommand(CLI::App& learn) {
 }
 
 void AddLearnWeightsCommand(CLI::App& learn) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<LearnWeightsArguments>();
   CLI::App* command = learn.add_subcommand(
       "weights", "Learn skinning weights from meshes of one surface in several poses");
   command

@@ -53,11 +53,11 @@ void ScanToFolder(const ScanSettings& settings, const fs::path& output) {
   fmt::print("{}\n", output.string());
 }
 
-struct Arguments {
+struct ScanArguments {
   fs::path config, output, frames;
 };
 
-void CarryOut(const Arguments& arguments) {
+void CarryOut(const ScanArguments& arguments) {
   if (arguments.output.empty() && arguments.frames.empty()) {
     throw ConfigError("scan: expected -o DIR for the scan, or --store-frames DIR");
   }
@@ -69,7 +69,7 @@ void CarryOut(const Arguments& arguments) {
 }  // namespace
 
 void AddScanCommand(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ScanArguments>();
   CLI::App* scan = app.add_subcommand("scan", "Scan a subject with a moving depth camera");
   scan->add_option("CONFIG", arguments->config, "scan config file")->required();
   scan->add_option("-o,--output", arguments->output, "folder of the scan: scan.ply, scan.json");

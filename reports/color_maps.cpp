@@ -4,6 +4,8 @@
 #include <cmath>
 #include <span>
 
+#include "reports/axis.h"
+
 namespace vitruvia {
 namespace {
 
@@ -39,6 +41,15 @@ Color ErrorColor(double share) {
                                                     {0xa3, 0x14, 0x2e},
                                                     {0x4a, 0x04, 0x2c}}};
   return Interpolated(kColors, share);
+}
+
+double ErrorScaleEnd(std::vector<double> errors, double smallest) {
+  constexpr double kShareWithin = 0.98;
+  if (errors.empty()) return smallest;
+  const auto at =
+      static_cast<std::ptrdiff_t>(kShareWithin * static_cast<double>(errors.size() - 1));
+  std::nth_element(errors.begin(), errors.begin() + at, errors.end());
+  return RoundedUp(std::max(errors[static_cast<std::size_t>(at)], smallest));
 }
 
 }  // namespace vitruvia

@@ -1,6 +1,8 @@
 // Colours that stand for numbers, and the palette of the report.
 #pragma once
 
+#include <vector>
+
 #include "reports/offscreen.h"
 
 namespace vitruvia {
@@ -12,6 +14,9 @@ Color DepthColor(double share);
 // Error: pale is none, dark red is the scale's end and beyond. Lightness falls steadily, so the
 // order shows in grey and to the colour-blind alike. `share` is error / scale.
 Color ErrorColor(double share);
+
+// Where an error scale ends: a round number that holds 98 % of `errors`, and `smallest` at least.
+double ErrorScaleEnd(std::vector<double> errors, double smallest);
 
 // Of runs in plots: distinct to the colour-blind (Okabe and Ito's set without its yellow).
 inline constexpr std::array<Color, 7> kRunColors = {{{0x00, 0x72, 0xb2},

@@ -13,7 +13,6 @@
 #include "metrics/vertex_error.h"
 #include "records/estimate.h"
 #include "records/surface_strips.h"
-#include "reports/axis.h"
 #include "reports/color_maps.h"
 #include "reports/mesh_view.h"
 #include "reports/surface_pictures.h"
@@ -27,7 +26,6 @@ constexpr double kSideViewTurn_deg = 60.0;  // of the second viewpoint, about th
 constexpr double kMargin = 1.12;            // of a picture over the body in it
 constexpr double kOverlayOpacity = 0.72;    // of the reconstruction over the depth image
 constexpr double kSmallestErrorScale_m = 0.01;
-constexpr double kErrorScaleShare = 0.98;  // of all errors shown lie within the scale
 constexpr Color kNoDepth{0xf4, 0xf4, 0xf4};
 
 struct FrameErrors {
@@ -67,11 +65,7 @@ double ErrorScale(const std::vector<std::unique_ptr<PictureSource>>& sources) {
       all.insert(all.end(), frame.errors_m.begin(), frame.errors_m.end());
     }
   }
-  if (all.empty()) return kSmallestErrorScale_m;
-  const auto at =
-      static_cast<std::ptrdiff_t>(kErrorScaleShare * static_cast<double>(all.size() - 1));
-  std::nth_element(all.begin(), all.begin() + at, all.end());
-  return RoundedUp(std::max(all[static_cast<std::size_t>(at)], kSmallestErrorScale_m));
+  return ErrorScaleEnd(std::move(all), kSmallestErrorScale_m);
 }
 
 struct Bounds {

@@ -6,16 +6,14 @@
 
 #include "core/error.h"
 #include "records/surface_strips.h"
-#include "reports/axis.h"
 #include "reports/color_maps.h"
 
 namespace vitruvia {
 namespace {
 
 constexpr double kViewDistance_m = 8.0;  // far: little perspective
-constexpr double kMargin = 1.08;
-constexpr double kSmallestErrorScale_m = 0.002;
-constexpr double kErrorScaleShare = 0.98;  // of all errors shown lie within the scale
+constexpr double kPanelMargin = 1.08;
+constexpr double kSmallestSurfaceScale_m = 0.002;
 
 // A camera in front of the subject's place; its picture is chosen by the window.
 PinholeCamera ViewCamera() {
@@ -40,7 +38,7 @@ struct Box {
 };
 
 // What all panels of all strips show, so that they have one scale.
-Box Bounds(const std::vector<SurfaceStrip>& strips) {
+Box BoxAround(const std::vector<SurfaceStrip>& strips) {
   Box box;
   for (const SurfaceStrip& strip : strips) {
     for (const SurfacePanel& panel : strip.panels) {
@@ -56,7 +54,7 @@ Box Bounds(const std::vector<SurfaceStrip>& strips) {
 }
 
 double ErrorScale(const std::vector<SurfaceStrip>& strips) {
-  std::vector<float> errors;
+  std::vector<double> errors;
   for (const SurfaceStrip& strip : strips) {
     for (const SurfacePanel& panel : strip.panels) {
       for (const ShownSurface& surface : panel.surfaces) {
@@ -65,12 +63,7 @@ double ErrorScale(const std::vector<SurfaceStrip>& strips) {
       }
     }
   }
-  if (errors.empty()) return kSmallestErrorScale_m;
-  const auto at =
-      static_cast<std::ptrdiff_t>(kErrorScaleShare * static_cast<double>(errors.size() - 1));
-  std::nth_element(errors.begin(), errors.begin() + at, errors.end());
-  return RoundedUp(
-      std::max(static_cast<double>(errors[static_cast<std::size_t>(at)]), kSmallestErrorScale_m));
+  return ErrorScaleEnd(std::move(errors), kSmallestSurfaceScale_m);
 }
 
 // Neighbouring bones have different hues: the golden angle round the circle of colours.
@@ -133,11 +126,11 @@ void DrawSurfaceStrips(const std::filesystem::path& run_folder, MeshView& view, 
     run.problem = "the run left no surfaces";
     return;
   }
-  const Box box = Bounds(strips);
+  const Box box = BoxAround(strips);
   const Vector3f middle = 0.5f * (box.low + box.high);
   const double pixels_per_m = ViewCamera().fx / kViewDistance_m;
   const double extent =
-      kMargin * pixels_per_m * static_cast<double>((box.high - box.low).head<2>().maxCoeff());
+      kPanelMargin * pixels_per_m * static_cast<double>((box.high - box.low).head<2>().maxCoeff());
   const PictureWindow window{ViewCamera().cx + 0.5 + pixels_per_m * middle.x() - 0.5 * extent,
                              ViewCamera().cy + 0.5 + pixels_per_m * middle.y() - 0.5 * extent,
                              extent, extent};

@@ -61,15 +61,6 @@ struct SubjectFile {
   }
 };
 
-SubjectFile ReadSubject(const fs::path& file) {
-  // The same strict reader serves configs; here what is wrong is data.
-  try {
-    return ReadSettingsFile<SubjectFile>(file);
-  } catch (const ConfigError& error) {
-    throw DataError(error.what());
-  }
-}
-
 Skeleton ToSkeleton(const std::vector<BoneFile>& bones, const std::string& where) {
   if (bones.size() != kBoneCount) {
     throw DataError(fmt::format("{}: {} bones, expected {}", where, bones.size(), kBoneCount));
@@ -172,7 +163,7 @@ void CheckBodyModel(const BodyModel& body, const std::string& where) {
 }
 
 BodyModel ReadBodyModel(const fs::path& folder) {
-  const SubjectFile subject = ReadSubject(folder / kSubjectFile);
+  const SubjectFile subject = ReadDataFile<SubjectFile>(folder / kSubjectFile);
   BodyModel body;
   body.name = subject.name;
   body.attributes = subject.attributes;

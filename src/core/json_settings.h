@@ -11,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/error.h"
 #include "core/settings.h"
 
 namespace vitruvia {
@@ -48,6 +49,17 @@ Struct ReadSettings(const Json& json, const JsonOrigin& origin) {
 template <class Struct>
 Struct ReadSettingsFile(const std::filesystem::path& file) {
   return ReadSettings<Struct>(ReadJsonFile(file), {file, ""});
+}
+
+// The same strict reader for files of data, the headers of our own formats: what is wrong is
+// damaged data there, so DataError is thrown.
+template <class Struct>
+Struct ReadDataFile(const std::filesystem::path& file) {
+  try {
+    return ReadSettingsFile<Struct>(file);
+  } catch (const ConfigError& error) {
+    throw DataError(error.what());
+  }
 }
 
 // The resolved settings, every key present.

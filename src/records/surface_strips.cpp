@@ -121,12 +121,7 @@ void WriteSurfaceStrips(const fs::path& run_folder, const std::vector<SurfaceStr
 
 std::vector<SurfaceStrip> ReadSurfaceStrips(const fs::path& run_folder) {
   const fs::path folder = run_folder / kFolder;
-  StripsFile file;
-  try {
-    file = ReadSettingsFile<StripsFile>(folder / kStripsFile);
-  } catch (const ConfigError& error) {
-    throw DataError(error.what());
-  }
+  const auto file = ReadDataFile<StripsFile>(folder / kStripsFile);
   std::vector<SurfaceStrip> strips;
   for (const StripEntry& strip : file.strips) {
     SurfaceStrip& read = strips.emplace_back(SurfaceStrip{strip.label, strip.note, {}});

@@ -259,14 +259,5 @@ TEST(VertexErrors, AreTheDistancesOfThatPoseAndVertex) {
   }
 }
 
-TEST(BoneColours, BlendByWeight) {
-  SkinWeights weights;
-  weights.bones = {{0, 0, 0, 0}, {1, 0, 0, 0}, {1, 0, 0, 0}};
-  weights.weights = {{1, 0, 0, 0}, {1, 0, 0, 0}, {0.75f, 0.25f, 0, 0}};
-  const std::vector<Vector3f> colours = BoneColours(weights, 2);
-  EXPECT_GT((colours[0] - colours[1]).norm(), 0.5f);
-  EXPECT_LT((colours[2] - 0.75f * colours[1] - 0.25f * colours[0]).norm(), 1e-6f);
-}
-
 }  // namespace
 }  // namespace vitruvia::skinning

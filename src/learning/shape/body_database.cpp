@@ -14,12 +14,12 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* kHeaderFile = "database.json";
+constexpr const char* kDatabaseFile = "database.json";
 constexpr const char* kVerticesFile = "vertices.bin";
 constexpr const char* kReferenceFolder = "reference";
 constexpr const char* kPosesFolder = "poses";
-constexpr const char* kFormat = "vitruvia-database";
-constexpr int kVersion = 1;
+constexpr const char* kDatabaseFormat = "vitruvia-database";
+constexpr int kDatabaseVersion = 1;
 
 static_assert(std::endian::native == std::endian::little, "vertices are copied as they lie");
 static_assert(sizeof(Vector3f) == 3 * sizeof(float));
@@ -49,32 +49,30 @@ struct SubjectEntry {
   }
 };
 
-struct HeaderFile {
-  std::string format = kFormat;
-  int version = kVersion;
+struct DatabaseHeader {
+  std::string format = kDatabaseFormat;
+  int version = kDatabaseVersion;
   std::vector<SubjectEntry> subjects;
   Json provenance = Json::object();
 
   void Describe(Fields& f) {
     f.Text("format", format, {.meaning = "must be vitruvia-database", .required = true});
-    f.Integer(
-        "version", version,
-        {.meaning = "version of this format", .min = kVersion, .max = kVersion, .required = true});
+    f.Integer("version", version,
+              {.meaning = "version of this format",
+               .min = kDatabaseVersion,
+               .max = kDatabaseVersion,
+               .required = true});
     f.List("subjects", subjects,
            {.meaning = "the people, in the order of vertices.bin", .required = true});
     f.FreeJson("provenance", provenance, {.meaning = "how the database was made"});
   }
 };
 
-HeaderFile ReadHeader(const fs::path& file) {
-  try {  // the same strict reader serves configs; here what is wrong is data
-    HeaderFile header = ReadSettingsFile<HeaderFile>(file);
-    if (header.format == kFormat) return header;
-    throw DataError(
-        fmt::format("{}: format \"{}\", expected \"{}\"", file.string(), header.format, kFormat));
-  } catch (const ConfigError& error) {
-    throw DataError(error.what());
-  }
+DatabaseHeader ReadDatabaseHeader(const fs::path& file) {
+  auto header = ReadDataFile<DatabaseHeader>(file);
+  if (header.format == kDatabaseFormat) return header;
+  throw DataError(fmt::format("{}: format \"{}\", expected \"{}\"", file.string(), header.format,
+                              kDatabaseFormat));
 }
 
 // A file of whole frames of `vertex_count` vertices.
@@ -149,15 +147,15 @@ void CheckBodyDatabase(const BodyDatabase& database, const std::string& where) {
 
 void WriteBodyDatabase(const fs::path& folder, const BodyDatabase& database) {
   CheckBodyDatabase(database, folder.string());
-  StagedFolder staged(folder, kHeaderFile);
-  HeaderFile header;
+  StagedFolder staged(folder, kDatabaseFile);
+  DatabaseHeader header;
   header.provenance = database.provenance;
   std::string vertices;
   for (const DatabaseSubject& subject : database.subjects) {
     header.subjects.push_back({subject.name, subject.attributes, subject.skeleton});
     Append(subject.vertices, vertices);
   }
-  WriteWholeFile(staged.path() / kHeaderFile, WriteSettings(header).dump() + "\n");
+  WriteWholeFile(staged.path() / kDatabaseFile, WriteSettings(header).dump() + "\n");
   WriteWholeFile(staged.path() / kVerticesFile, vertices);
   WriteBodyModel(staged.path() / kReferenceFolder, database.reference);
   if (!database.examples.empty()) MakeFolder(staged.path() / kPosesFolder);
@@ -170,14 +168,14 @@ void WriteBodyDatabase(const fs::path& folder, const BodyDatabase& database) {
 }
 
 BodyDatabase ReadBodyDatabase(const fs::path& folder) {
-  const HeaderFile header = ReadHeader(folder / kHeaderFile);
+  const DatabaseHeader header = ReadDatabaseHeader(folder / kDatabaseFile);
   BodyDatabase database;
   database.provenance = header.provenance;
   database.reference = ReadBodyModel(folder / kReferenceFolder);
   auto vertices = ReadVertexFrames(folder / kVerticesFile, database.reference.rest.vertices.size());
   if (vertices.size() != header.subjects.size()) {
     throw DataError(fmt::format("{}: {} bodies, but {} names {} subjects",
-                                (folder / kVerticesFile).string(), vertices.size(), kHeaderFile,
+                                (folder / kVerticesFile).string(), vertices.size(), kDatabaseFile,
                                 header.subjects.size()));
   }
   for (std::size_t s = 0; s < vertices.size(); ++s) {

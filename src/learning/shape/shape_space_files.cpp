@@ -11,9 +11,9 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* kHeaderFile = "space.json";
-constexpr const char* kFormat = "vitruvia-shape-space";
-constexpr int kVersion = 1;
+constexpr const char* kSpaceFile = "space.json";
+constexpr const char* kSpaceFormat = "vitruvia-shape-space";
+constexpr int kSpaceVersion = 1;
 
 static_assert(std::endian::native == std::endian::little, "matrices are copied as they lie");
 
@@ -37,38 +37,36 @@ Matrix ReadMatrix(const fs::path& file, Eigen::Index rows, Eigen::Index columns)
   return matrix;
 }
 
-struct HeaderFile {
-  std::string format = kFormat;
-  int version = kVersion;
+struct SpaceHeader {
+  std::string format = kSpaceFormat;
+  int version = kSpaceVersion;
   int components = 0;
 
   void Describe(Fields& f) {
     f.Text("format", format, {.meaning = "must be vitruvia-shape-space", .required = true});
-    f.Integer(
-        "version", version,
-        {.meaning = "version of this format", .min = kVersion, .max = kVersion, .required = true});
+    f.Integer("version", version,
+              {.meaning = "version of this format",
+               .min = kSpaceVersion,
+               .max = kSpaceVersion,
+               .required = true});
     f.Integer("components", components,
               {.meaning = "principal components", .min = 1, .max = 10000, .required = true});
   }
 };
 
-HeaderFile ReadHeader(const fs::path& file) {
-  try {
-    HeaderFile header = ReadSettingsFile<HeaderFile>(file);
-    if (header.format == kFormat) return header;
-    throw DataError(
-        fmt::format("{}: format \"{}\", expected \"{}\"", file.string(), header.format, kFormat));
-  } catch (const ConfigError& error) {
-    throw DataError(error.what());
-  }
+SpaceHeader ReadSpaceHeader(const fs::path& file) {
+  auto header = ReadDataFile<SpaceHeader>(file);
+  if (header.format == kSpaceFormat) return header;
+  throw DataError(fmt::format("{}: format \"{}\", expected \"{}\"", file.string(), header.format,
+                              kSpaceFormat));
 }
 
 }  // namespace
 
 void WriteShapeSpace(const fs::path& folder, const ShapeSpace& space) {
-  StagedFolder staged(folder, kHeaderFile);
-  const HeaderFile header{.components = space.components()};
-  WriteWholeFile(staged.path() / kHeaderFile, WriteSettings(header).dump(2) + "\n");
+  StagedFolder staged(folder, kSpaceFile);
+  const SpaceHeader header{.components = space.components()};
+  WriteWholeFile(staged.path() / kSpaceFile, WriteSettings(header).dump(2) + "\n");
   WriteMatrix(staged.path() / "mean.bin", space.mean);
   WriteMatrix(staged.path() / "basis.bin", space.basis);
   WriteMatrix(staged.path() / "joint_mean.bin", space.joint_mean);
@@ -83,7 +81,7 @@ void WriteShapeSpace(const fs::path& folder, const ShapeSpace& space) {
 }
 
 ShapeSpace ReadShapeSpace(const fs::path& folder) {
-  const Eigen::Index components = ReadHeader(folder / kHeaderFile).components;
+  const Eigen::Index components = ReadSpaceHeader(folder / kSpaceFile).components;
   ShapeSpace space;
   space.reference = ReadBodyModel(folder / "reference");
   const auto coordinates = static_cast<Eigen::Index>(3 * space.reference.rest.vertices.size());

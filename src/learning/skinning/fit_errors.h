@@ -1,5 +1,4 @@
-// How well a decomposition explains its examples, vertex by vertex, and which bone moves what: what
-// pictures of it are coloured by.
+// How well a decomposition explains its examples, vertex by vertex.
 #pragma once
 
 #include <vector>
@@ -13,9 +12,5 @@ namespace vitruvia::skinning {
 // `poses` are the bones' transforms posed_from_rest in every pose. Misuse if numbers do not agree.
 std::vector<std::vector<float>> VertexErrors(const Examples& examples, const SkinWeights& weights,
                                              const std::vector<BoneTransforms>& poses);
-
-// V: each vertex's mean of its bones' colours by their weights; red, green, blue in 0 … 1. Colours
-// of bones are far apart for neighbours in number.
-std::vector<Vector3f> BoneColours(const SkinWeights& weights, int bone_count);
 
 }  // namespace vitruvia::skinning

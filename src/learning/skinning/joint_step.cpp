@@ -8,7 +8,7 @@
 namespace vitruvia::skinning {
 namespace {
 
-constexpr int kChunks = 16;  // of vertices; sums are kept per chunk and added in their order
+constexpr int kVertexChunks = 16;  // of vertices; sums are kept per chunk and added in their order
 constexpr int kPosesPerRange = 8, kBonesPerRange = 8;  // that a thread takes at a time
 constexpr int kMostFree = kMaxInfluences - 1;
 
@@ -18,7 +18,7 @@ constexpr double kLeastEffect = 1e-9;
 constexpr double kTolerance = 1e-3;
 
 int ChunkBegin(int count, int chunk) {
-  return static_cast<int>(static_cast<std::int64_t>(count) * chunk / kChunks);
+  return static_cast<int>(static_cast<std::int64_t>(count) * chunk / kVertexChunks);
 }
 
 }  // namespace
@@ -46,7 +46,7 @@ JointStep::JointStep(const PackedExamples& examples, int bones, int iterations, 
       iterations_(iterations),
       team_(team),
       equations_(examples.pose_count()),
-      chunks_(kChunks, Chunk{Eigen::MatrixXd(4 * bones, 4 * bones)}),
+      chunks_(kVertexChunks, Chunk{Eigen::MatrixXd(4 * bones, 4 * bones)}),
       products_(4 * bones, 4 * bones),
       undone_(4 * bones, 4 * bones),
       change_(4 * bones, 3 * examples.pose_count()),
@@ -142,7 +142,7 @@ void JointStep::GatherUndone(const BoneStack& stack) {
     products_.middleRows(4 * begin, 4 * (end - begin)).noalias() =
         stack.middleRows(4 * begin, 4 * (end - begin)) * change_.transpose();
   });
-  team_.For(kChunks, 1, [&](int begin, int end) {
+  team_.For(kVertexChunks, 1, [&](int begin, int end) {
     for (int chunk = begin; chunk < end; ++chunk) {
       chunks_[chunk].undone.setZero();
       const int count = static_cast<int>(terms_.size());

@@ -7,7 +7,7 @@
 namespace vitruvia::skinning {
 namespace {
 
-constexpr int kChunks = 16;  // of poses, each with a workspace of its own
+constexpr int kPoseChunks = 16;  // of poses, each with a workspace of its own
 
 // Damping of the linearised step, relative to the diagonal.
 constexpr double kLeastDamping = 1e-12;
@@ -98,7 +98,7 @@ TransformStep::TransformStep(int bones, int poses, TransformSolver solver, int s
     : solver_(solver),
       steps_(steps),
       team_(team),
-      workspaces_(std::min(kChunks, poses), Workspace(bones)),
+      workspaces_(std::min(kPoseChunks, poses), Workspace(bones)),
       gains_(poses) {}
 
 TransformStep::~TransformStep() = default;

@@ -12,7 +12,7 @@
 namespace vitruvia::skinning {
 namespace {
 
-constexpr int kChunks = 16;  // of rows; sums are kept per chunk and added in their order
+constexpr int kRowChunks = 16;  // of rows; sums are kept per chunk and added in their order
 constexpr int kMaxTerms = 4 * kMaxInfluences;
 
 using ConstLanes = Eigen::Map<const Lanes>;
@@ -154,7 +154,7 @@ WeightStep::WeightStep(const PackedExamples& examples, std::vector<std::uint8_t>
       candidates_(std::move(candidates)),
       influences_(influences),
       team_(team),
-      chunks_(kChunks) {
+      chunks_(kRowChunks) {
   Require(influences >= 1 && influences <= kMaxInfluences, "WeightStep: {} influences", influences);
   const int bones = static_cast<int>(candidates_.size());
   for (const auto& list : candidates_) {
@@ -185,12 +185,12 @@ void WeightStep::Prepare(const BoneStack& stack) {
 }
 
 int WeightStep::ChunkBegin(int chunk) const {
-  return static_cast<int>(static_cast<std::int64_t>(examples_.vertex_count()) * chunk / kChunks);
+  return static_cast<int>(static_cast<std::int64_t>(examples_.vertex_count()) * chunk / kRowChunks);
 }
 
 void WeightStep::Solve(const BoneStack& stack, RowWeights& weights, SkinMoments& moments) {
   Prepare(stack);
-  team_.For(kChunks, 1, [&](int begin, int end) {
+  team_.For(kRowChunks, 1, [&](int begin, int end) {
     for (int c = begin; c < end; ++c) {
       chunks_[c].SetZero();
       for (int row = ChunkBegin(c); row < ChunkBegin(c + 1); ++row) {
@@ -204,7 +204,7 @@ void WeightStep::Solve(const BoneStack& stack, RowWeights& weights, SkinMoments&
 
 void WeightStep::Gather(const BoneStack& stack, const RowWeights& weights, SkinMoments& moments) {
   Prepare(stack);
-  team_.For(kChunks, 1, [&](int begin, int end) {
+  team_.For(kRowChunks, 1, [&](int begin, int end) {
     for (int c = begin; c < end; ++c) {
       chunks_[c].SetZero();
       for (int row = ChunkBegin(c); row < ChunkBegin(c + 1); ++row) {
