@@ -1,6 +1,7 @@
 #include "experiments/experiment_config.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 #include "core/hash.h"
@@ -19,8 +20,9 @@ bool IsPlainName(const std::string& name) {
 }
 
 RunPlan PlanRun(const fs::path& scene_file, const fs::path& method_file,
-                const VariantSettings& variant, int seed) {
+                const VariantSettings& variant, int seed, const ScoreSettings& score) {
   RunPlan run;
+  run.score = score;
   run.variant = variant.name;
   run.scene = scene_file.stem().string();
   run.method_name = method_file.stem().string();
@@ -30,7 +32,8 @@ RunPlan PlanRun(const fs::path& scene_file, const fs::path& method_file,
   run.method =
       ReadMethodConfig(Merged(ReadJsonFile(method_file), variant.method), {method_file, ""});
   run.resolved = {{"scene", WriteSettings(run.scene_settings)},
-                  {"method", {{"method", run.method.method}, {"settings", run.method.settings}}}};
+                  {"method", {{"method", run.method.method}, {"settings", run.method.settings}}},
+                  {"score", WriteSettings(score)}};
   if (!variant.subject.empty()) {
     run.subject = ReadSubjectRecipe(variant.subject);
     run.resolved["subject"] = ResolvedRecipe(*run.subject);
@@ -65,8 +68,19 @@ void ExpectationSettings::Describe(Fields& f) {
   f.Text("metric", metric, {.meaning = "a key of the summary rows", .required = true});
   f.Number("paper", paper, {.meaning = "the value that the paper prints"});
   f.Number("at_most", at_most, {.meaning = "our target"});
+  f.Number("at_least", at_least, {.meaning = "our target, where more is better"});
   f.Text("source", source, {.meaning = "where the paper prints it"});
   f.Text("remark", remark, {.meaning = "how the work differs"});
+  f.Texts("scenes", scenes, {.meaning = "names of the scenes that it is about; all if empty"});
+}
+
+std::string ExpectationSettings::Problem() const {
+  if (std::isnan(at_most) || std::isnan(at_least)) return "";
+  return fmt::format("at_most {} and at_least {}: expected one of the two", at_most, at_least);
+}
+
+Expectation ExpectationSettings::AsRecorded() const {
+  return {metric, paper, at_most, source, remark, at_least, scenes};
 }
 
 void ExperimentSettings::Describe(Fields& f) {
@@ -83,6 +97,7 @@ void ExperimentSettings::Describe(Fields& f) {
   f.List("expectations", expectations, {.meaning = "numbers of the paper to print beside ours"});
   f.Integers("picture_frames", picture_frames,
              {.meaning = "frames at which the report shows pictures", .min = 0, .max = 1e9});
+  f.Section("score", score, {.meaning = "what is measured beside the usual"});
 }
 
 std::string ExperimentSettings::Problem() const {
@@ -128,13 +143,13 @@ ExperimentPlan PlanExperiment(const fs::path& experiment_file) {
   plan.record.description = settings.description;
   plan.record.picture_frames = settings.picture_frames;
   for (const ExpectationSettings& e : settings.expectations) {
-    plan.record.expectations.push_back({e.metric, e.paper, e.at_most, e.source, e.remark});
+    plan.record.expectations.push_back(e.AsRecorded());
   }
   for (const fs::path& scene : settings.scenes) {
     for (const fs::path& method : settings.methods) {
       for (const VariantSettings& variant : settings.variants) {
         for (const int seed : settings.seeds) {
-          plan.runs.push_back(PlanRun(scene, method, variant, seed));
+          plan.runs.push_back(PlanRun(scene, method, variant, seed, settings.score));
           plan.record.run_ids.push_back(plan.runs.back().run_id);
         }
       }

@@ -42,7 +42,7 @@ RunRecord CarryOut(const RunPlan& run, const std::string& experiment, const fs::
                     {"scene", run.scene},
                     {"seed", run.seed},
                     {"method", run.method_name}};
-  ScoreRun(sequence, EstimateReader(folder / run.run_id / "estimate"), record);
+  ScoreRun(sequence, EstimateReader(folder / run.run_id / "estimate"), run.score, record);
   return record;
 }
 
