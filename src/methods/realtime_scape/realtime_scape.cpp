@@ -219,7 +219,7 @@ void RealtimeScape::TryOtherPoses(const DepthFrame& frame) {
   const bool is_better = best.agreement > to_beat;
   Compare(frame, is_better ? best.pose : course.pose);
   if (is_better) {
-    s.recovery.Found();
+    s.recovery.Found(best.agreement);
   } else {
     s.course = course;
   }

@@ -49,9 +49,8 @@ bool Recovery::Note(double agreement, const BodyPose& pose) {
   if (is_first_) {
     is_first_ = false;
     remembered_.push_back(pose);
-    if (is_low) return settings_.patience > 0;  // nothing to compare with: tried at once
     usual_ = agreement;
-    return false;
+    return is_low && settings_.patience > 0;  // there is nothing better to wait for
   }
   if (!is_low) {
     usual_ += kUsualFollows * (agreement - usual_);
@@ -62,6 +61,11 @@ bool Recovery::Note(double agreement, const BodyPose& pose) {
   ++misses_;
   return settings_.patience > 0 && misses_ >= settings_.patience &&
          (misses_ - settings_.patience) % settings_.pause == 0;
+}
+
+void Recovery::Found(double agreement) {
+  misses_ = 0;
+  usual_ = std::max(usual_, agreement);
 }
 
 void Recovery::Remember(const BodyPose& pose) {

@@ -19,10 +19,11 @@ class Recovery {
   explicit Recovery(const RecoverySettings& settings) : settings_(settings) {}
 
   // Takes note of a frame. True if other poses should be tried for it: agreement has been below its
-  // usual level for `patience` frames, or is low in the first one already.
+  // usual level for `patience` frames, or is low in the first one already; what the first then
+  // reaches is usual.
   bool Note(double agreement, const BodyPose& pose);
   // Another pose was found to agree better.
-  void Found() { misses_ = 0; }
+  void Found(double agreement);
 
   bool is_lost() const { return misses_ > 0; }
   double usual_agreement() const { return usual_; }
