@@ -53,7 +53,7 @@ TEST(RealtimeScape, SaysLostWhenTheDataAreElsewhere) {
   DepthImage wall(320, 240, 6.0f);
   const TrackResult result = tracker.TrackFrame({1, 1 / 30.0, wall});
   EXPECT_EQ(result.outcome, Outcome::kLost);
-  EXPECT_NE(result.message.find("explains"), std::string::npos);
+  EXPECT_NE(result.message.find("confirms"), std::string::npos);
 }
 
 // Whatever a frame holds, the result is finite and the subject is found again afterwards.

@@ -16,7 +16,6 @@
 #include "methods/realtime_scape/placement.h"
 #include "methods/realtime_scape/pose_step.h"
 #include "methods/realtime_scape/prediction.h"
-#include "methods/realtime_scape/recovery.h"
 
 namespace vitruvia::realtime_scape {
 namespace {
@@ -113,7 +112,10 @@ void RealtimeScape::Start(const Subject& subject, const PinholeCamera& camera) {
 TrackResult RealtimeScape::TrackFrame(const DepthFrame& frame) {
   Require(session_ != nullptr, "TrackFrame called before Start");
   const bool first = !session_->placed;
-  if (!BeginFrame(frame)) return Result(false, 0);
+  if (!BeginFrame(frame)) {
+    session_->recovery.NoteEmptyFrame();
+    return Result(false, 0);
+  }
 
   const int limit =
       first ? settings_.stopping.first_frame_iterations : settings_.stopping.max_iterations;
@@ -140,9 +142,10 @@ bool RealtimeScape::Iterate(const DepthFrame& frame, int limit) {
   return stopped_small;
 }
 
-double RealtimeScape::CurrentAgreement() const {
+Agreement RealtimeScape::CurrentAgreement() const {
   const Session& s = *session_;
-  return Agreement(s.cloud.points.size(), s.unexplained.size(), s.fit.classes);
+  return MeasureAgreement(s.cloud.points.size(), s.unexplained.size(), s.visible.size(),
+                          s.fit.classes);
 }
 
 // Puts the body into that pose, as if it had always been in it.
@@ -155,7 +158,7 @@ void RealtimeScape::StartFrom(const BodyPose& pose) {
   PoseSurface(s.model, s.course.pose, s.surface);
 }
 
-double RealtimeScape::Compare(const DepthFrame& frame, const BodyPose& pose) {
+Agreement RealtimeScape::Compare(const DepthFrame& frame, const BodyPose& pose) {
   StartFrom(pose);
   session_->iteration = 0;
   Render();
@@ -192,13 +195,13 @@ void RealtimeScape::TryOtherPoses(const DepthFrame& frame) {
   Session& s = *session_;
   struct Tried {
     BodyPose pose;
-    double agreement;
+    Agreement agreement;
   };
-  const auto by_agreement = [](const Tried& a, const Tried& b) {
-    return a.agreement > b.agreement;
+  const auto by_score = [](const Tried& a, const Tried& b) {
+    return a.agreement.score() > b.agreement.score();
   };
   const Course course = s.course;
-  const double to_beat = CurrentAgreement() + settings_.recovery.margin;
+  const Agreement agreement = CurrentAgreement();
   std::vector<Tried> tried;
   for (const BodyPose& hypothesis : s.recovery.Hypotheses(course.pose)) {
     const BodyPose pose = OnCloud(hypothesis);
@@ -207,7 +210,7 @@ void RealtimeScape::TryOtherPoses(const DepthFrame& frame) {
       tried.push_back({there, Compare(frame, there)});
     }
   }
-  std::stable_sort(tried.begin(), tried.end(), by_agreement);
+  std::stable_sort(tried.begin(), tried.end(), by_score);
   tried.resize(std::min(tried.size(), static_cast<std::size_t>(settings_.recovery.tried)));
   for (Tried& candidate : tried) {
     StartFrom(candidate.pose);
@@ -215,8 +218,8 @@ void RealtimeScape::TryOtherPoses(const DepthFrame& frame) {
     const BodyPose reached = s.course.pose;
     candidate = {reached, Compare(frame, reached)};
   }
-  const Tried& best = *std::min_element(tried.begin(), tried.end(), by_agreement);
-  const bool is_better = best.agreement > to_beat;
+  const Tried& best = *std::min_element(tried.begin(), tried.end(), by_score);
+  const bool is_better = s.recovery.IsBetter(best.agreement, agreement);
   Compare(frame, is_better ? best.pose : course.pose);
   if (is_better) {
     s.recovery.Found(best.agreement);
@@ -240,22 +243,30 @@ bool RealtimeScape::BeginFrame(const DepthFrame& frame) {
                  static_cast<float>(settings_.cloud.max_depth_m), s.cloud);
   if (s.cloud.points.empty()) return false;
   s.near_cloud->Build(s.cloud.points);
-  if (!s.placed) Place();
+  if (!s.placed) Place(frame);
   Predict();
   s.Lap(kCloudTree);
   return true;
 }
 
-void RealtimeScape::Place() {
+void RealtimeScape::Place(const DepthFrame& frame) {
   Session& s = *session_;
-  const Rigidd camera_from_subject =
-      PlaceRestPose(s.model, s.cloud, s.camera, settings_.fit, settings_.placement, *s.rasterizer);
-  for (int j = 0; j < kBoneCount; ++j) {
-    s.course.pose[j] = {camera_from_subject.rotation,
-                        camera_from_subject * s.model.rest_centers[j]};
+  BodyPose best;
+  double best_score = -1.0;
+  for (const double side : {0.0, -1.0, 1.0}) {
+    const Rigidd camera_from_subject =
+        PlaceRestPose(s.model, s.cloud, s.camera, settings_.fit, settings_.placement,
+                      side * settings_.placement.aside_m, *s.rasterizer);
+    BodyPose pose;
+    for (int j = 0; j < kBoneCount; ++j) {
+      pose[j] = {camera_from_subject.rotation, camera_from_subject * s.model.rest_centers[j]};
+    }
+    const double score = Compare(frame, pose).score();
+    if (score <= best_score) continue;
+    best = pose;
+    best_score = score;
   }
-  s.course.last_pose = s.course.before_last_pose = s.course.pose;
-  s.course.sight.Forget();
+  StartFrom(best);
   s.placed = true;
 }
 
@@ -392,20 +403,14 @@ void RealtimeScape::EndFrame() {
 TrackResult RealtimeScape::Result(bool stopped_small, int iterations) {
   Session& s = *session_;
   TrackResult result;
-  const std::size_t points = s.cloud.points.size();
-  const double explained =
-      points == 0 ? 0.0
-                  : 1.0 - static_cast<double>(s.unexplained.size()) / static_cast<double>(points);
-  if (points == 0) {
+  const double presence = CurrentAgreement().presence();
+  if (s.cloud.points.empty()) {
     result.outcome = Outcome::kNoData;
     result.message = "the frame holds no measurement; the pose is carried over";
-  } else if (explained < settings_.lost_below) {
+  } else if (presence < settings_.lost_below || s.recovery.is_lost()) {
     result.outcome = Outcome::kLost;
-    result.message = fmt::format("the model explains {:.0f} % of the points", 100.0 * explained);
-  } else if (s.recovery.is_lost()) {
-    result.outcome = Outcome::kLost;
-    result.message = fmt::format("model and frame agree by {:.0f} %, usually {:.0f} %",
-                                 100.0 * CurrentAgreement(), 100.0 * s.recovery.usual_agreement());
+    result.message = fmt::format("the frame confirms {:.0f} % of the model, usually {:.0f} %",
+                                 100.0 * presence, 100.0 * s.recovery.usual().presence());
   } else if (!s.solved) {
     result.outcome = Outcome::kLost;
     result.message = "the step has no solution or tears the body apart; the pose is carried over";

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "methods/realtime_scape/model.h"
+#include "methods/realtime_scape/recovery.h"
 #include "methods/realtime_scape/settings.h"
 #include "tracking/tracker.h"
 
@@ -26,7 +27,7 @@ class RealtimeScape final : public Tracker {
   };
 
   bool BeginFrame(const DepthFrame& frame);
-  void Place();
+  void Place(const DepthFrame& frame);
   void Predict();
   void Render();
   void Classify(const DepthFrame& frame);
@@ -37,9 +38,9 @@ class RealtimeScape final : public Tracker {
   Step Update();
   bool IsSmall(const Step& step) const;
   bool Iterate(const DepthFrame& frame, int limit);
-  double CurrentAgreement() const;
+  Agreement CurrentAgreement() const;
   void StartFrom(const BodyPose& pose);
-  double Compare(const DepthFrame& frame, const BodyPose& pose);
+  Agreement Compare(const DepthFrame& frame, const BodyPose& pose);
   BodyPose OnCloud(BodyPose pose);
   void TryOtherPoses(const DepthFrame& frame);
   void EndFrame();

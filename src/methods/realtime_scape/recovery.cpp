@@ -38,14 +38,29 @@ BodyPose TurnedAbout(const BodyPose& pose, const Matrix3<double>& turn) {
 
 }  // namespace
 
-double Agreement(std::size_t points, std::size_t unexplained, const VertexClasses& classes) {
-  const std::size_t confirmed = classes.near_surface.size();
-  return Share(points - unexplained, points) *
-         Share(confirmed, confirmed + classes.elsewhere.size());
+double Agreement::presence() const {
+  constexpr double kEnoughJudged = 0.1;
+  return judged >= kEnoughJudged ? confirmed : explained;
 }
 
-bool Recovery::Note(double agreement, const BodyPose& pose) {
-  const bool is_low = agreement < settings_.below * usual_;
+Agreement MeasureAgreement(std::size_t points, std::size_t unexplained, std::size_t visible,
+                           const VertexClasses& classes) {
+  const std::size_t confirmed = classes.near_surface.size();
+  const std::size_t judged = confirmed + classes.elsewhere.size();
+  return {Share(points - unexplained, points), Share(confirmed, judged), Share(judged, visible)};
+}
+
+// Low is a model of which too little is confirmed, or one that leaves much unexplained while it
+// does not fit itself. What stands before the body leaves much unexplained too, but the model fits.
+bool Recovery::IsLow(const Agreement& agreement) const {
+  constexpr double kFits = 0.97;  // of the usual share
+  return agreement.presence() < settings_.below * usual_.presence() ||
+         (agreement.score() < settings_.below * usual_.score() &&
+          agreement.confirmed < kFits * usual_.confirmed);
+}
+
+bool Recovery::Note(const Agreement& agreement, const BodyPose& pose) {
+  const bool is_low = IsLow(agreement);
   if (is_first_) {
     is_first_ = false;
     remembered_.push_back(pose);
@@ -53,19 +68,29 @@ bool Recovery::Note(double agreement, const BodyPose& pose) {
     return is_low && settings_.patience > 0;  // there is nothing better to wait for
   }
   if (!is_low) {
-    usual_ += kUsualFollows * (agreement - usual_);
+    usual_.explained += kUsualFollows * (agreement.explained - usual_.explained);
+    usual_.confirmed += kUsualFollows * (agreement.confirmed - usual_.confirmed);
+    usual_.judged += kUsualFollows * (agreement.judged - usual_.judged);
     misses_ = 0;
     Remember(pose);
     return false;
   }
   ++misses_;
-  return settings_.patience > 0 && misses_ >= settings_.patience &&
-         (misses_ - settings_.patience) % settings_.pause == 0;
+  if (settings_.patience == 0 || misses_ < settings_.patience || pause_ > 0) {
+    pause_ = std::max(pause_ - 1, 0);
+    return false;
+  }
+  pause_ = settings_.pause - 1;
+  return true;
 }
 
-void Recovery::Found(double agreement) {
+bool Recovery::IsBetter(const Agreement& other, const Agreement& current) const {
+  return other.score() > current.score() + settings_.margin && other.confirmed >= current.confirmed;
+}
+
+void Recovery::Found(const Agreement& agreement) {
   misses_ = 0;
-  usual_ = std::max(usual_, agreement);
+  if (agreement.score() > usual_.score()) usual_ = agreement;
 }
 
 void Recovery::Remember(const BodyPose& pose) {

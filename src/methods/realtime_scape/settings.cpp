@@ -301,6 +301,15 @@ void PlacementSettings::Describe(Fields& f) {
             .max = 0.9,
             .origin = Origin::kGuessed,
             .source = "the arms may hang a little from the T-pose"});
+  f.Number(
+      "aside_m", aside_m,
+      {.meaning = "the body is also placed that far to either side of where its points are, for "
+                  "some of it may be out of the image; the best of the three is kept",
+       .unit = "m",
+       .min = 0,
+       .max = 2,
+       .origin = Origin::kGuessed,
+       .source = "half the body out of the image moves its middle by 0.3 to 0.5 m"});
 }
 
 void RecoverySettings::Describe(Fields& f) {
@@ -328,7 +337,8 @@ void RecoverySettings::Describe(Fields& f) {
             .origin = Origin::kGuessed,
             .source = kSource});
   f.Number("margin", margin,
-           {.meaning = "by how much another pose must agree better to be taken",
+           {.meaning = "by how much the explained share of the cloud times the confirmed share of "
+                       "the model must rise for another pose to be taken",
             .min = 0,
             .max = 1,
             .origin = Origin::kGuessed,
@@ -412,13 +422,15 @@ void Settings::Describe(Fields& f) {
   f.Section("solver", solver, {.meaning = "the linear solver"});
   f.Section("placement", placement, {.meaning = "how the rest pose is put onto the first frame"});
   f.Section("recovery", recovery, {.meaning = "what is done when the subject is lost"});
-  f.Number("lost_below", lost_below,
-           {.meaning =
-                "a frame is lost when less than this share of the cloud is explained by the model",
-            .min = 0,
-            .max = 1,
-            .origin = Origin::kGuessed,
-            .source = "paper A is silent"});
+  f.Number(
+      "lost_below", lost_below,
+      {.meaning =
+           "a frame is lost when it confirms less than this share of the model's visible vertices "
+           "on which it has a say",
+       .min = 0,
+       .max = 1,
+       .origin = Origin::kGuessed,
+       .source = "paper A is silent"});
 }
 
 }  // namespace vitruvia::realtime_scape

@@ -118,7 +118,7 @@ struct PlacementSettings {
 struct RecoverySettings {
   int patience = 3;  // frames; 0: never
   int pause = 5;     // frames
-  double below = 0.7;
+  double below = 0.8;
   double margin = 0.1;
   int remembered = 8;
   double apart_deg = 20.0;
