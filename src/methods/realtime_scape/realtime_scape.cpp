@@ -243,30 +243,21 @@ bool RealtimeScape::BeginFrame(const DepthFrame& frame) {
                  static_cast<float>(settings_.cloud.max_depth_m), s.cloud);
   if (s.cloud.points.empty()) return false;
   s.near_cloud->Build(s.cloud.points);
-  if (!s.placed) Place(frame);
+  if (!s.placed) Place();
   Predict();
   s.Lap(kCloudTree);
   return true;
 }
 
-void RealtimeScape::Place(const DepthFrame& frame) {
+void RealtimeScape::Place() {
   Session& s = *session_;
-  BodyPose best;
-  double best_score = -1.0;
-  for (const double side : {0.0, -1.0, 1.0}) {
-    const Rigidd camera_from_subject =
-        PlaceRestPose(s.model, s.cloud, s.camera, settings_.fit, settings_.placement,
-                      side * settings_.placement.aside_m, *s.rasterizer);
-    BodyPose pose;
-    for (int j = 0; j < kBoneCount; ++j) {
-      pose[j] = {camera_from_subject.rotation, camera_from_subject * s.model.rest_centers[j]};
-    }
-    const double score = Compare(frame, pose).score();
-    if (score <= best_score) continue;
-    best = pose;
-    best_score = score;
+  const Rigidd camera_from_subject =
+      PlaceRestPose(s.model, s.cloud, s.camera, settings_.fit, settings_.placement, *s.rasterizer);
+  BodyPose pose;
+  for (int j = 0; j < kBoneCount; ++j) {
+    pose[j] = {camera_from_subject.rotation, camera_from_subject * s.model.rest_centers[j]};
   }
-  StartFrom(best);
+  StartFrom(pose);
   s.placed = true;
 }
 

@@ -27,7 +27,7 @@ class RealtimeScape final : public Tracker {
   };
 
   bool BeginFrame(const DepthFrame& frame);
-  void Place(const DepthFrame& frame);
+  void Place();
   void Predict();
   void Render();
   void Classify(const DepthFrame& frame);

@@ -301,15 +301,6 @@ void PlacementSettings::Describe(Fields& f) {
             .max = 0.9,
             .origin = Origin::kGuessed,
             .source = "the arms may hang a little from the T-pose"});
-  f.Number(
-      "aside_m", aside_m,
-      {.meaning = "the body is also placed that far to either side of where its points are, for "
-                  "some of it may be out of the image; the best of the three is kept",
-       .unit = "m",
-       .min = 0,
-       .max = 2,
-       .origin = Origin::kGuessed,
-       .source = "half the body out of the image moves its middle by 0.3 to 0.5 m"});
 }
 
 void RecoverySettings::Describe(Fields& f) {
