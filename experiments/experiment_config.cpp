@@ -87,13 +87,21 @@ void AddRuns(const fs::path& scene, const fs::path& method, const VariantSetting
   }
 }
 
+void RequireDifferentNames(const std::vector<VariantSettings>& variants, const fs::path& file) {
+  std::set<std::string> names;
+  for (const VariantSettings& variant : variants) {
+    if (names.insert(variant.name).second) continue;
+    throw ConfigError(fmt::format("{}: the sweep makes two variants of the name {}", file.string(),
+                                  variant.name));
+  }
+}
+
 void RequireDifferentRuns(const std::vector<RunPlan>& runs, const fs::path& file) {
   std::set<std::string> ids;
   for (const RunPlan& run : runs) {
     if (ids.insert(run.run_id).second) continue;
-    throw ConfigError(fmt::format(
-        "{}: the run {} stands twice: a seed, a file or a value of the sweep is repeated",
-        file.string(), run.run_id));
+    throw ConfigError(fmt::format("{}: the run {} stands twice: a seed or a file is repeated",
+                                  file.string(), run.run_id));
   }
 }
 
@@ -197,6 +205,7 @@ ExperimentPlan PlanExperiment(const fs::path& experiment_file) {
     plan.record.expectations.push_back({e.metric, e.paper, e.at_most, e.source, e.remark});
   }
   const std::vector<VariantSettings> variants = Swept(settings.variants, settings.sweep);
+  RequireDifferentNames(variants, experiment_file);
   for (const fs::path& scene : settings.scenes) {
     for (const fs::path& method : settings.methods) {
       for (const VariantSettings& variant : variants)

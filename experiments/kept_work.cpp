@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/build_info.h"
+#include "core/error.h"
 #include "core/file_lock.h"
 #include "core/files.h"
 #include "core/hash.h"
@@ -54,8 +55,12 @@ KeptFolder::KeptFolder(const fs::path& cache, const std::string& name, const Jso
       key_(WorkKey(resolved)) {}
 
 bool KeptFolder::complete() const {
-  return fs::is_directory(folder_) && fs::is_regular_file(marker_) &&
-         ReadWholeFile(marker_) == key_;
+  if (!fs::is_directory(folder_)) return false;
+  try {
+    return ReadWholeFile(marker_) == key_;
+  } catch (const DataError&) {
+    return false;  // not made yet, or being made anew at this moment
+  }
 }
 
 void KeptFolder::Obtain(const std::function<void(const fs::path&)>& make) const {
@@ -64,6 +69,7 @@ void KeptFolder::Obtain(const std::function<void(const fs::path&)>& make) const 
   const FileLock lock = FileLock::Wait(folder_.string() + ".lock", LockKind::kExclusive);
   if (complete()) return;  // made while we waited
   RemoveUnfinished(folder_);
+  fs::remove(marker_);  // or what another build made would be taken for what we make
   make(folder_);
   WriteWholeFile(marker_, key_);
 }

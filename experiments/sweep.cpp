@@ -96,6 +96,7 @@ std::string SweepAxis::Problem() const {
                      std::none_of(keys.begin(), keys.end(), [](auto& k) { return k.empty(); });
   if (!named)
     return fmt::format("setting: expected scene.KEY… or method.settings.KEY…, got \"{}\"", setting);
+  if (setting == "scene.seed") return "setting: seeds have a list of their own: \"seeds\"";
   if (!values.is_array()) return "values: expected a list, got " + values.dump();
   for (const Json& value : values) {
     if (!value.is_primitive() || value.is_null())
