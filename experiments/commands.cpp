@@ -75,7 +75,7 @@ void Track(const fs::path& method_file, const fs::path& sequence_folder, const f
   const SequenceReader sequence(sequence_folder);
   TrackSequence(sequence, method, sequence.subject(), output);
   RunRecord record;
-  ScoreRun(sequence, EstimateReader(output), record);
+  ScoreRun(sequence, EstimateReader(output), ScoreSettings(), record);
   fmt::print("{}\n", record.summary.dump(2));
 }
 

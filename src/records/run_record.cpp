@@ -1,5 +1,7 @@
 #include "records/run_record.h"
 
+#include <algorithm>
+
 #include "core/files.h"
 #include "records/json_node.h"
 
@@ -62,9 +64,13 @@ std::map<std::string, std::vector<double>> ParseSeries(const JsonNode& node, int
 }
 
 Expectation ParseExpectation(const JsonNode& node) {
-  return {node.At("metric").Text(), node.At("paper").NumberOr(kNoValue),
-          node.At("at_most").NumberOr(kNoValue), node.At("source").Text(),
-          node.At("remark").Text()};
+  return {node.At("metric").Text(),
+          node.At("paper").NumberOr(kNoValue),
+          node.At("at_most").NumberOr(kNoValue),
+          node.At("source").Text(),
+          node.At("remark").Text(),
+          node.At("at_least").NumberOr(kNoValue),
+          node.At("scenes").List([](const JsonNode& scene) { return scene.Text(); })};
 }
 
 RunRecord ParseRunRecord(const JsonNode& node) {
@@ -107,12 +113,18 @@ ExperimentRecord ParseExperimentRecord(const JsonNode& node) {
 
 }  // namespace
 
+bool Expectation::IsAbout(const std::string& scene) const {
+  return scenes.empty() || std::find(scenes.begin(), scenes.end(), scene) != scenes.end();
+}
+
 void to_json(Json& json, const Expectation& e) {
   json = {{"metric", e.metric},
           {"paper", FiniteOrNull(e.paper, e.metric + ".paper")},
           {"at_most", FiniteOrNull(e.at_most, e.metric + ".at_most")},
           {"source", e.source},
-          {"remark", e.remark}};
+          {"remark", e.remark},
+          {"at_least", FiniteOrNull(e.at_least, e.metric + ".at_least")},
+          {"scenes", e.scenes}};
 }
 
 void from_json(const Json& json, Expectation& e) {

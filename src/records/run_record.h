@@ -10,6 +10,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -20,11 +21,15 @@ namespace vitruvia {
 
 // A number that a paper prints, to be set beside ours.
 struct Expectation {
-  std::string metric;    // a key of the summary row
-  double paper = 0.0;    // published value; NaN: none
-  double at_most = 0.0;  // our target; NaN: none
-  std::string source;    // "paper A, figure 11"
-  std::string remark;    // how the work differs
+  std::string metric;                                          // a key of the summary row
+  double paper = 0.0;                                          // published value; NaN: none
+  double at_most = 0.0;                                        // our target; NaN: none
+  std::string source;                                          // "paper A, figure 11"
+  std::string remark;                                          // how the work differs
+  double at_least = std::numeric_limits<double>::quiet_NaN();  // a target from the other side
+  std::vector<std::string> scenes;                             // that it is about; empty: all
+
+  bool IsAbout(const std::string& scene) const;
 
   friend void to_json(nlohmann::json& json, const Expectation& e);
   friend void from_json(const nlohmann::json& json, Expectation& e);

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "methods/realtime_scape/model.h"
 #include "methods/realtime_scape/settings.h"
 #include "tracking/tracker.h"
 
@@ -35,6 +36,12 @@ class RealtimeScape final : public Tracker {
   void Solve();
   Step Update();
   bool IsSmall(const Step& step) const;
+  bool Iterate(const DepthFrame& frame, int limit);
+  double CurrentAgreement() const;
+  void StartFrom(const BodyPose& pose);
+  double Compare(const DepthFrame& frame, const BodyPose& pose);
+  BodyPose OnCloud(BodyPose pose);
+  void TryOtherPoses(const DepthFrame& frame);
   void EndFrame();
   TrackResult Result(bool stopped_small, int iterations);
 
