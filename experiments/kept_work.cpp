@@ -1,8 +1,12 @@
 #include "experiments/kept_work.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/build_info.h"
+#include "core/error.h"
+#include "core/file_lock.h"
 #include "core/files.h"
 #include "core/hash.h"
 
@@ -11,14 +15,34 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void AddNamedFiles(const Json& json, Hash64& hash) {
+// Settings that name folders of data, not texts that happen to be a folder's name.
+bool NamesFolder(const std::string& key) { return key.ends_with("folder") || key == "sequence"; }
+
+// Such folders can hold gigabytes: their files are told apart by name, size and time.
+void AddFolder(const fs::path& folder, Hash64& hash) {
+  std::vector<std::string> files;
+  std::error_code unreadable;
+  fs::recursive_directory_iterator it(folder, unreadable), end;
+  for (; !unreadable && it != end; it.increment(unreadable)) {
+    std::error_code gone;
+    if (!it->is_regular_file(gone)) continue;
+    files.push_back(fmt::format("{} {} {}", it->path().lexically_relative(folder).string(),
+                                it->file_size(gone),
+                                it->last_write_time(gone).time_since_epoch().count()));
+  }
+  std::sort(files.begin(), files.end());
+  for (const std::string& file : files) hash.Add(file);
+}
+
+void AddNamedFiles(const std::string& key, const Json& json, Hash64& hash) {
   if (json.is_string()) {
     const fs::path file = json.get<std::string>();
     std::error_code not_a_file;  // texts of all kinds are asked
     if (fs::is_regular_file(file, not_a_file)) hash.AddFile(file);
+    if (NamesFolder(key)) AddFolder(file, hash);
   }
   if (json.is_structured()) {
-    for (const Json& item : json) AddNamedFiles(item, hash);
+    for (const auto& item : json.items()) AddNamedFiles(item.key(), item.value(), hash);
   }
 }
 
@@ -27,22 +51,33 @@ void AddNamedFiles(const Json& json, Hash64& hash) {
 std::string WorkKey(const Json& resolved) {
   Hash64 hash;
   hash.Add(GetBuildInfo().build_id).Add(resolved.dump());
-  AddNamedFiles(resolved, hash);
+  AddNamedFiles("", resolved, hash);
   return hash.Hex();
 }
 
 KeptFolder::KeptFolder(const fs::path& cache, const std::string& name, const Json& resolved)
     : folder_(cache / fmt::format("{}-{}", name, Hash64().Add(resolved.dump()).Hex())),
       marker_(folder_.string() + ".key"),
-      key_(WorkKey(resolved)) {
-  MakeFolder(cache);
-}
+      key_(WorkKey(resolved)) {}
 
 bool KeptFolder::complete() const {
-  return fs::is_directory(folder_) && fs::is_regular_file(marker_) &&
-         ReadWholeFile(marker_) == key_;
+  if (!fs::is_directory(folder_)) return false;
+  try {
+    return ReadWholeFile(marker_) == key_;
+  } catch (const DataError&) {
+    return false;  // not made yet, or being made anew at this moment
+  }
 }
 
-void KeptFolder::MarkComplete() const { WriteWholeFile(marker_, key_); }
+void KeptFolder::Obtain(const std::function<void(const fs::path&)>& make) const {
+  if (complete()) return;
+  MakeFolder(folder_.parent_path());
+  const FileLock lock = FileLock::Wait(folder_.string() + ".lock", LockKind::kExclusive);
+  if (complete()) return;  // made while we waited
+  RemoveUnfinished(folder_);
+  fs::remove(marker_);  // or what another build made would be taken for what we make
+  make(folder_);
+  WriteWholeFile(marker_, key_);
+}
 
 }  // namespace vitruvia

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "methods/dynamic/dynamic.h"
+#include "methods/external/external.h"
 #include "methods/realtime_scape/realtime_scape.h"
 
 namespace vitruvia {
@@ -33,7 +34,9 @@ const std::vector<Entry>& Entries() {
           "realtime_scape", "paper A: LBS body of 17 bones, four-term energy, conjugate gradients"),
       MakeEntry<dynamic::Dynamic, dynamic::Settings>(
           "dynamic",
-          "paper B: dual-quaternion joints, projective association, a warp for every vertex")};
+          "paper B: dual-quaternion joints, projective association, a warp for every vertex"),
+      MakeEntry<external::External, external::Settings>(
+          "external", "a tracker of your own: a program (src/methods/external/PROTOCOL.md)")};
   return entries;
 }
 

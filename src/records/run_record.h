@@ -5,7 +5,7 @@
 //   summary.json           { "experiment", "rows": [ one flat object per run ] }
 //   <run id>/record.json   RunRecord
 //   <run id>/estimate/     see estimate.h
-//   <run id>/status, log   "done" or what went wrong; the run's own messages
+//   <run id>/status, log   "done KEY", or "failed KEY" and why; the run's own messages
 //   report.html, table.csv, table.tex, figures/*.png, figures/*.svg
 #pragma once
 
