@@ -98,7 +98,7 @@ RunRecord CarryOut(const Study& study, std::size_t scan_number, int person_numbe
   record.scene = person;
   record.method = kMethod;
   record.config = Resolved(study, scan_number);
-  record.provenance = Provenance();
+  record.provenance = TimedProvenance();
   record.summary = {
       {"run_id", run_id},
       {"variant", record.variant},

@@ -86,7 +86,7 @@ RunRecord CarryOut(const Study& study, int person_number, const std::string& exp
   record.scene = person;
   record.method = kMethod;
   record.config = {{"learning", WriteSettings(study.learning)}};
-  record.provenance = Provenance();
+  record.provenance = TimedProvenance();
   record.summary = {{"run_id", run_id},
                     {"variant", record.variant},
                     {"scene", person},
