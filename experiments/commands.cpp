@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/progress.h"
+#include "experiments/compare_command.h"
 #include "experiments/experiment_config.h"
 #include "experiments/experiment_kinds.h"
 #include "experiments/explain.h"
@@ -158,6 +159,7 @@ void AddCommands(CLI::App& app, Arguments& a) {
   report->add_option("DIR", a.reported, "the experiment's folder")->required();
   report->callback([&a] { fmt::print("report: {}\n", WriteReport(a.reported).string()); });
 
+  AddCompareCommand(app);
   AddLearnCommand(app);
   AddScanCommand(app);
   AddFitCommand(app);
@@ -181,7 +183,8 @@ int RunCommandLine(int argc, const char* const* argv) {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {
       throw ConfigError(
-          "expected a command: list, synth, learn, scan, fit, track, run, report or explain "
+          "expected a command: list, synth, learn, scan, fit, track, run, report, compare or "
+          "explain "
           "(--help)");
     }
     return static_cast<int>(ExitCode::kSuccess);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "reports/color_maps.h"
+#include "reports/comparison_section.h"
 #include "reports/html_text.h"
 #include "reports/page_assets.h"
 #include "reports/tables.h"
@@ -285,6 +286,7 @@ std::string MakePage(const ReportedExperiment& experiment, const std::vector<Dra
       Escaped(experiment.record.title), kPageStyle);
   page += Header(experiment) + "<main>\n";
   page += PaperSection(experiment);
+  page += ComparisonSection(experiment);
   page += PlotSection(experiment, figures);
   page += PictureSection(pictures);
   page += StepSection(experiment);
