@@ -18,6 +18,7 @@
 #include "experiments/explain.h"
 #include "experiments/learn_command.h"
 #include "experiments/learn_shape_command.h"
+#include "experiments/regress_command.h"
 #include "experiments/runner.h"
 #include "experiments/scan_command.h"
 #include "experiments/score.h"
@@ -29,7 +30,8 @@ namespace {
 
 constexpr const char* kExitCodes =
     "Exit codes: 0 success, 1 internal error, 2 bad configuration or arguments, 3 bad data, "
-    "4 failed run or output not writable, 130 interrupted.";
+    "4 failed run or output not writable, 5 accuracy regressed, 6 speed regressed, 7 nothing "
+    "measured, 130 interrupted.";
 
 std::string VersionText() {
   const BuildInfo& build = GetBuildInfo();
@@ -160,6 +162,7 @@ void AddCommands(CLI::App& app, Arguments& a) {
   report->callback([&a] { fmt::print("report: {}\n", WriteReport(a.reported).string()); });
 
   AddCompareCommand(app);
+  AddRegressCommand(app);
   AddLearnCommand(app);
   AddScanCommand(app);
   AddFitCommand(app);
