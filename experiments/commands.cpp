@@ -16,11 +16,13 @@
 #include "experiments/experiment_config.h"
 #include "experiments/experiment_kinds.h"
 #include "experiments/explain.h"
+#include "experiments/index_command.h"
 #include "experiments/learn_command.h"
 #include "experiments/learn_shape_command.h"
 #include "experiments/regress_command.h"
 #include "experiments/runner.h"
 #include "experiments/scan_command.h"
+#include "experiments/schema_command.h"
 #include "experiments/score.h"
 #include "reports/report.h"
 
@@ -161,8 +163,10 @@ void AddCommands(CLI::App& app, Arguments& a) {
   report->add_option("DIR", a.reported, "the experiment's folder")->required();
   report->callback([&a] { fmt::print("report: {}\n", WriteReport(a.reported).string()); });
 
+  AddIndexCommand(app);
   AddCompareCommand(app);
   AddRegressCommand(app);
+  AddSchemaCommand(app);
   AddLearnCommand(app);
   AddScanCommand(app);
   AddFitCommand(app);

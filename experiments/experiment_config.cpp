@@ -67,6 +67,8 @@ void ExpectationSettings::Describe(Fields& f) {
   f.Number("at_most", at_most, {.meaning = "our target"});
   f.Text("source", source, {.meaning = "where the paper prints it"});
   f.Text("remark", remark, {.meaning = "how the work differs"});
+  f.Text("not_comparable", not_comparable,
+         {.meaning = "why our number says nothing about the paper's: no verdict is given"});
 }
 
 void ExperimentSettings::Describe(Fields& f) {
@@ -128,7 +130,8 @@ ExperimentPlan PlanExperiment(const fs::path& experiment_file) {
   plan.record.description = settings.description;
   plan.record.picture_frames = settings.picture_frames;
   for (const ExpectationSettings& e : settings.expectations) {
-    plan.record.expectations.push_back({e.metric, e.paper, e.at_most, e.source, e.remark});
+    plan.record.expectations.push_back(
+        {e.metric, e.paper, e.at_most, e.source, e.remark, e.not_comparable});
   }
   for (const fs::path& scene : settings.scenes) {
     for (const fs::path& method : settings.methods) {

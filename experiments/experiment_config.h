@@ -31,7 +31,7 @@ struct ExpectationSettings {
   std::string metric;
   double paper = std::numeric_limits<double>::quiet_NaN();
   double at_most = std::numeric_limits<double>::quiet_NaN();
-  std::string source, remark;
+  std::string source, remark, not_comparable;
 
   void Describe(Fields& fields);
 };

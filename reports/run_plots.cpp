@@ -169,7 +169,7 @@ std::vector<Figure> MakeFigures(const ReportedExperiment& experiment) {
     for (const RunGroup& group : groups) {
       Figure figure = make(experiment.record, group);
       if (!group.suffix.empty()) {
-        figure.name += "-" + FileSafe(group.suffix);
+        figure.name = fmt::format("{}-{}", figure.name, FileSafe(group.suffix));
         figure.title += ": " + group.suffix;
       }
       figures.push_back(std::move(figure));

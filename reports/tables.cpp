@@ -58,9 +58,10 @@ ComparedRun Compare(const ReportedRun& run, const Expectation& e, const MetricNa
   if (std::isnan(ours)) return compared;
   compared.ours = Printed(ours, metric);
   if (!std::isnan(e.paper)) compared.difference = PrintedSigned(ours - e.paper, metric);
-  compared.verdict = std::isnan(e.at_most) ? Verdict::kNoTarget
-                     : ours <= e.at_most   ? Verdict::kMet
-                                           : Verdict::kMissed;
+  compared.verdict = !e.not_comparable.empty() ? Verdict::kNotComparable
+                     : std::isnan(e.at_most)   ? Verdict::kNoTarget
+                     : ours <= e.at_most       ? Verdict::kMet
+                                               : Verdict::kMissed;
   return compared;
 }
 

@@ -59,7 +59,12 @@ std::string GatedRun::name() const {
 GatedRun MakeGatedRun(const std::string& experiment, std::span<const RunRecord> repeats) {
   Require(!repeats.empty(), "MakeGatedRun: {} has no repeat", experiment);
   const RunRecord& first = repeats.front();
-  GatedRun gated{experiment, first.variant, first.scene, first.method, first.seed};
+  GatedRun gated;
+  gated.experiment = experiment;
+  gated.variant = first.variant;
+  gated.scene = first.scene;
+  gated.method = first.method;
+  gated.seed = first.seed;
   gated.repeats = static_cast<int>(repeats.size());
   for (const char* metric : kAccuracyMetrics) {
     const double value = MetricValue(first, metric);

@@ -112,8 +112,8 @@ class Judging {
       judgement_.unmeasured.push_back(fmt::format("{}: {}", is.name(), metric));
       return;
     }
-    Finding finding{is.name(),     kind,        metric, NumbersOf(was, kind).at(metric),
-                    found->second, limits.worst};
+    Finding finding{is.name(),     kind,         metric,          NumbersOf(was, kind).at(metric),
+                    found->second, limits.worst, Change::kWithin, {}};
     finding.change = ChangeOf(finding.is, limits);
     if (finding.change == Change::kRegressed)
       finding.blame = BlameFor(finding, limits, history_, commit_, baseline_.commit);

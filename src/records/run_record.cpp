@@ -62,9 +62,12 @@ std::map<std::string, std::vector<double>> ParseSeries(const JsonNode& node, int
 }
 
 Expectation ParseExpectation(const JsonNode& node) {
-  return {node.At("metric").Text(), node.At("paper").NumberOr(kNoValue),
-          node.At("at_most").NumberOr(kNoValue), node.At("source").Text(),
-          node.At("remark").Text()};
+  return {node.At("metric").Text(),
+          node.At("paper").NumberOr(kNoValue),
+          node.At("at_most").NumberOr(kNoValue),
+          node.At("source").Text(),
+          node.At("remark").Text(),
+          node.json().contains("not_comparable") ? node.At("not_comparable").Text() : ""};
 }
 
 RunRecord ParseRunRecord(const JsonNode& node) {
@@ -112,7 +115,8 @@ void to_json(Json& json, const Expectation& e) {
           {"paper", FiniteOrNull(e.paper, e.metric + ".paper")},
           {"at_most", FiniteOrNull(e.at_most, e.metric + ".at_most")},
           {"source", e.source},
-          {"remark", e.remark}};
+          {"remark", e.remark},
+          {"not_comparable", e.not_comparable}};
 }
 
 void from_json(const Json& json, Expectation& e) {

@@ -1,0 +1,73 @@
+#include <gmock/gmock.h>
+
+#include "experiments/command_outcome.h"
+#include "experiments/tiny_experiment.h"
+
+namespace vitruvia {
+namespace {
+using testing::HasSubstr;
+
+class Compare : public testing::Test {
+ protected:
+  void Run(const std::string& folder) const {
+    Json experiment = files_.Read("experiment.json");
+    experiment["variants"] = {
+        {{"name", "all"}}, {{"name", "no_axis"}, {"method", {{"settings", {{"axis_weight", 0}}}}}}};
+    files_.Write("variants.json", experiment);
+    ASSERT_EQ(CallCommand({"run", files_.File("variants.json"), "-o", files_.File(folder)}).code,
+              ExitCode::kSuccess);
+  }
+
+  TinyExperiment files_;
+};
+
+TEST_F(Compare, PrintsATableAndWritesIt) {
+  Run("out");
+  const CommandOutcome outcome =
+      CallCommand({"compare", files_.File("out"), "-o", files_.File("tables/variants.json")});
+  ASSERT_EQ(outcome.code, ExitCode::kSuccess) << outcome.error;
+  EXPECT_THAT(outcome.out, HasSubstr("mean L2 error / diagonal"));
+  EXPECT_THAT(outcome.out, HasSubstr("1 pairs  too few pairs"));
+  const Json row = files_.Read("tables/variants.json").at("rows").at(0);
+  EXPECT_EQ(row.at("reference"), "all");
+  EXPECT_EQ(row.at("other"), "no_axis");
+  EXPECT_EQ(row.at("pairs"), 1);
+  EXPECT_TRUE(row.at("interval").at(0).is_null());
+  EXPECT_THAT(ReadWholeFile(files_.File("out/report.html")),
+              HasSubstr("<h2>Variants against all</h2>"));
+}
+
+TEST_F(Compare, TheSameRunsOfTwoFoldersDoNotDiffer) {
+  Run("first");
+  Run("second");
+  const CommandOutcome outcome =
+      CallCommand({"compare", files_.File("first"), files_.File("second"), "--metric", "l2_mean_m",
+                   "-o", files_.File("table.csv")});
+  ASSERT_EQ(outcome.code, ExitCode::kSuccess) << outcome.error;
+  EXPECT_THAT(outcome.out, HasSubstr("second: all"));
+  EXPECT_THAT(ReadWholeFile(files_.File("table.csv")), HasSubstr(",2,0,"));
+}
+
+TEST_F(Compare, BadInputIsNamed) {
+  Run("out");
+  const auto refused = [&](const std::vector<std::string>& more, ExitCode code,
+                           const std::string& words) {
+    std::vector<std::string> arguments = {"compare"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const CommandOutcome outcome = CallCommand(arguments);
+    EXPECT_EQ(outcome.code, code) << outcome.error;
+    EXPECT_THAT(outcome.error, HasSubstr(words));
+  };
+  const std::string out = files_.File("out");
+  refused({}, ExitCode::kBadConfiguration, "DIR is required");
+  refused({files_.File("nowhere")}, ExitCode::kBadData, "nowhere");
+  refused({out, "--reference", "al"}, ExitCode::kBadConfiguration,
+          "no variant \"al\"; there are: all, no_axis");
+  refused({out, "--metric", "l2_men_m"}, ExitCode::kBadConfiguration,
+          "did you mean \"l2_mean_m\"?");
+  refused({out, out, "--reference", "all"}, ExitCode::kBadConfiguration, "got two folders");
+  refused({out, "-o", "table.txt"}, ExitCode::kBadConfiguration, "ends in .json or .csv");
+}
+
+}  // namespace
+}  // namespace vitruvia
