@@ -1,9 +1,7 @@
 #include "experiments/commands.h"
 
 #include <algorithm>
-#include <array>
 #include <csignal>
-#include <limits>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -14,16 +12,21 @@
 #include "core/progress.h"
 #include "experiments/compare_command.h"
 #include "experiments/experiment_config.h"
-#include "experiments/experiment_kinds.h"
 #include "experiments/explain.h"
+#include "experiments/export_command.h"
+#include "experiments/import_command.h"
 #include "experiments/index_command.h"
 #include "experiments/learn_command.h"
 #include "experiments/learn_shape_command.h"
 #include "experiments/regress_command.h"
-#include "experiments/runner.h"
+#include "experiments/rescore_command.h"
+#include "experiments/run_command.h"
 #include "experiments/scan_command.h"
 #include "experiments/schema_command.h"
 #include "experiments/score.h"
+#include "experiments/status_command.h"
+#include "experiments/submit_command.h"
+#include "experiments/tracking_runs.h"
 #include "reports/report.h"
 
 namespace vitruvia {
@@ -81,50 +84,8 @@ void Track(const fs::path& method_file, const fs::path& sequence_folder, const f
   fmt::print("{}\n", record.summary.dump(2));
 }
 
-// The columns that a person wants to see first, of whatever kind of experiment.
-void PrintRows(const fs::path& folder, const std::vector<std::string>& run_ids) {
-  constexpr std::array kColumns = {
-      "frames_failed",      "l2_mean_of_diagonal", "l2_max_of_diagonal",
-      "joints_within_10cm", "frame_ms_median",     "surface_mean_m",
-      "surface_max_m",      "height_error_m",      "weight_error_kg"};
-  std::vector<Json> rows;
-  for (const std::string& run_id : run_ids) {
-    if (!fs::is_regular_file(folder / run_id / "record.json")) continue;
-    rows.push_back(ReadRunRecord(folder, run_id).summary);
-  }
-  std::vector<std::string> columns;
-  for (const char* column : kColumns) {
-    if (std::any_of(rows.begin(), rows.end(),
-                    [column](const Json& row) { return row.contains(column); })) {
-      columns.emplace_back(column);
-    }
-  }
-  fmt::print("{:<52}", "run");
-  for (const std::string& column : columns) fmt::print(" {:>20}", column);
-  fmt::print("\n");
-  for (const Json& row : rows) {
-    fmt::print("{:<52}", row["run_id"].get<std::string>());
-    for (const std::string& column : columns)
-      fmt::print(" {:>20.6g}", row.value(column, std::numeric_limits<double>::quiet_NaN()));
-    fmt::print("\n");
-  }
-}
-
-void Run(const fs::path& experiment_file, const fs::path& output) {
-  const fs::path folder = output.empty() ? fs::path("out") / ConfigName(experiment_file) : output;
-  const fs::path shared = output.empty() ? fs::path("out") : folder;
-  const Experiment experiment =
-      PlanAnyExperiment(experiment_file, folder, {shared / "sequences", shared / "learned"});
-  const ExperimentOutcome outcome = CarryOutRuns(experiment.record, experiment.runs, folder);
-  PrintRows(folder, experiment.record.run_ids);
-  fmt::print("{} runs done, {} kept, {} failed\n", outcome.done, outcome.kept, outcome.failed);
-  fmt::print("report: {}\n", WriteReport(folder).string());
-  if (outcome.failed > 0)
-    throw RunError(fmt::format("{} of {} runs failed", outcome.failed, experiment.runs.size()));
-}
-
 struct Arguments {
-  fs::path scene, method, experiment, sequence, verified, reported, output;
+  fs::path scene, method, sequence, verified, reported, output;
   std::string key;
 };
 
@@ -153,10 +114,12 @@ void AddCommands(CLI::App& app, Arguments& a) {
   track->add_option("-o,--output", a.output, "folder of the estimate")->required();
   track->callback([&a] { Track(a.method, a.sequence, a.output); });
 
-  CLI::App* run = app.add_subcommand("run", "Carry out an experiment and write its report");
-  run->add_option("EXPERIMENT", a.experiment, "experiment file")->required();
-  run->add_option("-o,--output", a.output, "the experiment's folder; out/NAME without");
-  run->callback([&a] { Run(a.experiment, a.output); });
+  AddRunCommand(app);
+  AddStatusCommand(app);
+  AddSubmitCommand(app);
+  AddRescoreCommand(app);
+  AddExportCommand(app);
+  AddImportCommand(app);
 
   CLI::App* report =
       app.add_subcommand("report", "Draw an experiment's report again from its records");
@@ -190,9 +153,8 @@ int RunCommandLine(int argc, const char* const* argv) {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {
       throw ConfigError(
-          "expected a command: list, synth, learn, scan, fit, track, run, report, compare or "
-          "explain "
-          "(--help)");
+          "expected a command: list, synth, import, learn, scan, fit, track, run, status, submit, "
+          "rescore, export, report, index, compare, regress, schema or explain (--help)");
     }
     return static_cast<int>(ExitCode::kSuccess);
   } catch (const CLI::Success& success) {  // --help, --version

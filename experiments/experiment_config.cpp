@@ -1,6 +1,7 @@
 #include "experiments/experiment_config.h"
 
 #include <algorithm>
+#include <set>
 
 #include "core/error.h"
 #include "core/hash.h"
@@ -17,6 +18,9 @@ bool IsPlainName(const std::string& name) {
     return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
   });
 }
+
+// Long enough for any sweep that a person reads, short enough for a folder's name.
+constexpr std::size_t kLongestRunId = 200;
 
 RunPlan PlanRun(const fs::path& scene_file, const fs::path& method_file,
                 const VariantSettings& variant, int seed) {
@@ -35,9 +39,62 @@ RunPlan PlanRun(const fs::path& scene_file, const fs::path& method_file,
     run.subject = ReadSubjectRecipe(variant.subject);
     run.resolved["subject"] = ResolvedRecipe(*run.subject);
   }
-  const std::string hash = Hash64().Add(run.resolved.dump()).Hex().substr(0, 8);
-  run.run_id = fmt::format("{}.{}.{}.s{}.{}", run.variant, run.scene, run.method_name, seed, hash);
   return run;
+}
+
+void NameRun(RunPlan& run) {
+  const std::string hash = Hash64().Add(run.resolved.dump()).Hex().substr(0, 8);
+  const std::string repeat = run.repeat > 0 ? fmt::format("r{}.", run.repeat) : "";
+  run.run_id = fmt::format("{}.{}.{}.s{}.{}{}", run.variant, run.scene, run.method_name, run.seed,
+                           repeat, hash);
+  if (run.run_id.size() > kLongestRunId) {
+    throw ConfigError(fmt::format("the run's name would have {} letters, expected at most {}: {}",
+                                  run.run_id.size(), kLongestRunId, run.run_id));
+  }
+}
+
+// Every variant at every point of the sweep.
+std::vector<VariantSettings> Swept(std::vector<VariantSettings> variants,
+                                   const SweepSettings& sweep) {
+  if (variants.empty()) variants.emplace_back().name = kDefaultVariant;
+  std::vector<VariantSettings> swept;
+  for (const VariantSettings& variant : variants) {
+    for (const SweepPoint& point : PointsOf(sweep)) {
+      swept.push_back(variant);
+      swept.back().name += point.label;
+      swept.back().scene = Merged(variant.scene, point.scene);
+      swept.back().method = Merged(variant.method, point.method);
+    }
+  }
+  return swept;
+}
+
+// The runs of one scene, method and variant.
+void AddRuns(const fs::path& scene, const fs::path& method, const VariantSettings& variant,
+             const ExperimentSettings& settings, std::vector<RunPlan>& runs) {
+  try {
+    for (const int seed : settings.seeds) {
+      RunPlan run = PlanRun(scene, method, variant, seed);
+      for (int repeat = 1; repeat <= settings.repeats; ++repeat) {
+        if (settings.repeats > 1) run.repeat = repeat;
+        NameRun(run);
+        runs.push_back(run);
+      }
+    }
+  } catch (const ConfigError& error) {
+    if (variant.name == kDefaultVariant) throw;
+    throw ConfigError(fmt::format("variant \"{}\": {}", variant.name, error.what()));
+  }
+}
+
+void RequireDifferentRuns(const std::vector<RunPlan>& runs, const fs::path& file) {
+  std::set<std::string> ids;
+  for (const RunPlan& run : runs) {
+    if (ids.insert(run.run_id).second) continue;
+    throw ConfigError(fmt::format(
+        "{}: the run {} stands twice: a seed, a file or a value of the sweep is repeated",
+        file.string(), run.run_id));
+  }
 }
 
 }  // namespace
@@ -80,8 +137,18 @@ void ExperimentSettings::Describe(Fields& f) {
   f.Files("methods", methods, {.meaning = "method files", .required = true});
   f.List("variants", variants,
          {.meaning = "named overrides; each is run on every scene with every method"});
+  f.Section("sweep", sweep, {.meaning = "settings whose values make variants of the variants"});
   f.Integers("seeds", seeds,
-             {.meaning = "seeds; each is a repeat of the whole grid", .min = 0, .max = 1e9});
+             {.meaning = "seeds of the scenes; the whole grid is carried out with each",
+              .min = 0,
+              .max = 1e9});
+  f.Integer("repeats", repeats,
+            {.meaning = "how often each run is carried out: for times, since all else is equal",
+             .min = 1,
+             .max = 1000});
+  f.Flag("timed", timed,
+         {.meaning = "true: times are what counts, so nothing else runs beside one of its runs on "
+                     "the same machine; false: runs may go in parallel (-j)"});
   f.List("expectations", expectations, {.meaning = "numbers of the paper to print beside ours"});
   f.Integers("picture_frames", picture_frames,
              {.meaning = "frames at which the report shows pictures", .min = 0, .max = 1e9});
@@ -121,10 +188,9 @@ SceneSettings ReadScene(const fs::path& scene_file, const Json& overrides) {
 }
 
 ExperimentPlan PlanExperiment(const fs::path& experiment_file) {
-  auto settings = ReadSettingsFile<ExperimentSettings>(experiment_file);
-  if (settings.variants.empty()) settings.variants.emplace_back().name = kDefaultVariant;
-
+  const auto settings = ReadSettingsFile<ExperimentSettings>(experiment_file);
   ExperimentPlan plan;
+  plan.timed = settings.timed;
   plan.record.name = ConfigName(experiment_file);
   plan.record.title = settings.title;
   plan.record.description = settings.description;
@@ -133,16 +199,15 @@ ExperimentPlan PlanExperiment(const fs::path& experiment_file) {
     plan.record.expectations.push_back(
         {e.metric, e.paper, e.at_most, e.source, e.remark, e.not_comparable});
   }
+  const std::vector<VariantSettings> variants = Swept(settings.variants, settings.sweep);
   for (const fs::path& scene : settings.scenes) {
     for (const fs::path& method : settings.methods) {
-      for (const VariantSettings& variant : settings.variants) {
-        for (const int seed : settings.seeds) {
-          plan.runs.push_back(PlanRun(scene, method, variant, seed));
-          plan.record.run_ids.push_back(plan.runs.back().run_id);
-        }
-      }
+      for (const VariantSettings& variant : variants)
+        AddRuns(scene, method, variant, settings, plan.runs);
     }
   }
+  RequireDifferentRuns(plan.runs, experiment_file);
+  for (const RunPlan& run : plan.runs) plan.record.run_ids.push_back(run.run_id);
   return plan;
 }
 

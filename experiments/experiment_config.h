@@ -9,6 +9,7 @@
 
 #include "core/json_settings.h"
 #include "experiments/fitted_subject.h"
+#include "experiments/sweep.h"
 #include "methods/registry.h"
 #include "records/run_record.h"
 #include "synth/scene/scene.h"
@@ -41,7 +42,10 @@ struct ExperimentSettings {
   std::string title, description;
   std::vector<std::filesystem::path> scenes, methods;
   std::vector<VariantSettings> variants;  // none: one without overrides, named "default"
+  SweepSettings sweep;
   std::vector<int> seeds{1};
+  int repeats = 1;
+  bool timed = false;
   std::vector<ExpectationSettings> expectations;
   std::vector<int> picture_frames{0};
 
@@ -49,11 +53,13 @@ struct ExperimentSettings {
   std::string Problem() const;
 };
 
-// One cell of the grid scenes × methods × variants × seeds, fully resolved.
+// One cell of the grid scenes × methods × variants × sweep × seeds × repeats, fully resolved.
 struct RunPlan {
-  std::string run_id;  // variant, scene, method, seed and a hash of the resolved config
-  std::string variant, scene, method_name;
+  std::string run_id;   // variant, scene, method, seed, repeat and a hash of the resolved config
+  std::string variant;  // its name and the label of the sweep's point
+  std::string scene, method_name;
   int seed = 1;
+  int repeat = 0;  // 1, 2, … where the experiment has repeats
   SceneSettings scene_settings;
   MethodConfig method;
   std::optional<SubjectRecipe> subject;
@@ -62,6 +68,7 @@ struct RunPlan {
 
 struct ExperimentPlan {
   ExperimentRecord record;  // without failures
+  bool timed = false;       // nothing else may run beside its runs
   std::vector<RunPlan> runs;
 };
 

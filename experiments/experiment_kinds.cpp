@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "experiments/shape_study.h"
+#include "experiments/tracking_runs.h"
 #include "experiments/weight_study.h"
 
 namespace vitruvia {

@@ -2,16 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
 
-#include "experiments/runner.h"
+#include "experiments/planned_run.h"
 
 namespace vitruvia {
-
-struct Experiment {
-  ExperimentRecord record;  // without failures
-  std::vector<PlannedRun> runs;
-};
 
 // "tracking" (the default; experiment_config.h), "intrinsic_shape" (shape_study.h) or
 // "skinning_weights" (weight_study.h). Throws ConfigError before anything has run.

@@ -80,16 +80,15 @@ BodyModel ObtainFittedSubject(SubjectRecipe recipe, const SceneSettings& scene,
   recipe.scan.scene.truth = scene.truth;
   const Json resolved = ResolvedRecipe(recipe);
   const KeptFolder kept(cache, "subject", resolved);
-  if (!kept.complete()) {
+  kept.Obtain([&](const fs::path& folder) {
     const LearnedModel model = ObtainLearnedModel(recipe.learning, cache);
     const ScanResult scan = Scan(recipe.scan);
     Require(scan.truth.has_value(), "ObtainFittedSubject: a scan without a person");
     const FittedSubject subject =
         FitSubject(model, scan.surface.mesh, scan.truth->body.attributes, recipe.fit);
-    WriteFittedSubject(kept.path(), subject, scan.surface.mesh,
+    WriteFittedSubject(folder, subject, scan.surface.mesh,
                        {{"made_by", "vitruvia"}, {"recipe", resolved}});
-    kept.MarkComplete();
-  }
+  });
   return ReadBodyModel(kept.path());
 }
 

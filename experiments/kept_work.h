@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "core/json_settings.h"
@@ -10,7 +11,9 @@
 namespace vitruvia {
 
 // What a stored result depends on: settings, the content of every file that they name, and the
-// program. Two equal keys mean that doing the work again would change nothing but the clock.
+// program (its linked identity: a changed line of code is another program, committed or not). Two
+// equal keys mean that doing the work again would change nothing but the clock. Of a folder that
+// is named, names, sizes and times of its files stand for their content.
 std::string WorkKey(const Json& resolved);
 
 class KeptFolder {
@@ -21,7 +24,9 @@ class KeptFolder {
   const std::filesystem::path& path() const { return folder_; }
   // Whether the folder is there, whole, and of this very key.
   bool complete() const;
-  void MarkComplete() const;  // once all its files are written
+  // Calls `make` unless the folder is complete. Of several processes that want the same folder at
+  // the same time one makes it; the others wait for it.
+  void Obtain(const std::function<void(const std::filesystem::path& folder)>& make) const;
 
  private:
   std::filesystem::path folder_, marker_;

@@ -80,11 +80,9 @@ LearnedModel LearnModel(const BodyDatabase& database, const LearningSettings& se
 
 LearnedModel ObtainLearnedModel(const LearningSettings& settings, const fs::path& cache) {
   const KeptFolder kept(cache, "model", WriteSettings(settings));
-  if (!kept.complete()) {
-    const LearnedModel model = LearnModel(MakeDatabase(settings.database), settings);
-    WriteShapeSpace(kept.path(), model.space);
-    kept.MarkComplete();
-  }
+  kept.Obtain([&](const fs::path& folder) {
+    WriteShapeSpace(folder, LearnModel(MakeDatabase(settings.database), settings).space);
+  });
   LearnedModel model;
   model.space = ReadShapeSpace(kept.path());
   model.tracking = MakeTrackingTemplate(model.space.reference.rest, settings.tracking_vertices);

@@ -5,11 +5,14 @@
 #include "core/error.h"
 #include "experiments/experiment_config.h"
 #include "experiments/experiment_kinds.h"
+#include "experiments/runner.h"
 #include "reports/experiment_runs.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
+
+constexpr int kJobs = 1;  // speed is measured
 
 fs::path RepeatFolder(const fs::path& folder, const fs::path& experiment, int repeat) {
   return folder / fmt::format("repeat-{}", repeat) / ConfigName(experiment);
@@ -85,7 +88,9 @@ void MeasureRepeats(const std::vector<GatedExperiment>& experiments, const fs::p
       const Experiment planned = PlanAnyExperiment(gated.experiment, repeat_folder,
                                                    {shared / "sequences", shared / "learned"});
       RemoveMeasured(repeat_folder);
-      CarryOutRuns(planned.record, planned.runs, repeat_folder);
+      WritePlan(planned, repeat_folder);
+      CarryOutRuns(planned.runs, kJobs, repeat_folder);
+      WriteSummary(repeat_folder);
     }
   }
 }

@@ -1,148 +1,184 @@
 #include "experiments/runner.h"
 
-#include "core/build_info.h"
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <set>
+#include <thread>
+#include <unistd.h>
+
 #include "core/error.h"
 #include "core/files.h"
 #include "core/progress.h"
 #include "core/timer.h"
-#include "experiments/kept_work.h"
-#include "experiments/score.h"
+#include "experiments/child_process.h"
+#include "experiments/run_state.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
-// Reads a small marker file; "" where there is none.
-std::string MarkerOf(const fs::path& file) {
-  return fs::is_regular_file(file) ? ReadWholeFile(file) : "";
+constexpr std::chrono::milliseconds kLookAgainAfter{20};
+
+// Held shared by whoever carries out runs on this machine, and alone by whoever times them.
+FileLock LockMachine(LockKind kind) {
+  const fs::path file = fs::temp_directory_path() / fmt::format("vitruvia-runs-{}.lock", getuid());
+  if (std::optional<FileLock> lock = FileLock::Try(file, kind)) return std::move(*lock);
+  fmt::print(stderr, "waiting: timed runs go alone on their machine, and others are going on\n");
+  return FileLock::Wait(file, kind);
 }
 
-RunRecord CarryOut(const RunPlan& run, const std::string& experiment, const fs::path& folder,
-                   const WorkFolders& work) {
-  const fs::path sequence_folder = ObtainSequence(run.scene, run.scene_settings, work.sequences);
-  const SequenceReader sequence(sequence_folder);
-  const BodyModel subject =
-      run.subject ? ObtainFittedSubject(*run.subject, run.scene_settings, work.learned)
-                  : sequence.subject();
-  TrackSequence(sequence, run.method, subject, folder / run.run_id / "estimate");
-
-  RunRecord record;
-  record.run_id = run.run_id;
-  record.experiment = experiment;
-  record.variant = run.variant;
-  record.scene = run.scene;
-  record.method = run.method_name;
-  record.seed = run.seed;
-  record.config = run.resolved;
-  record.provenance = TimedProvenance();
-  record.sequence_folder = fs::absolute(sequence_folder).lexically_relative(fs::absolute(folder));
-  record.sequence_hash = sequence.hash();
-  record.summary = {{"run_id", run.run_id},
-                    {"variant", run.variant},
-                    {"scene", run.scene},
-                    {"seed", run.seed},
-                    {"method", run.method_name}};
-  ScoreRun(sequence, EstimateReader(folder / run.run_id / "estimate"), record);
-  return record;
-}
-
-std::string LogOf(const fs::path& estimate_folder) {
-  std::string log;
-  const EstimateReader estimate(estimate_folder);
-  for (std::size_t i = 0; i < estimate.frames().size(); ++i) {
-    const FrameEstimate& frame = estimate.frames()[i];
-    if (frame.message.empty()) continue;
-    log += fmt::format("frame {}: {}: {}\n", i, Name(frame.outcome), frame.message);
+// In the run's own process: carries it out and leaves record and status behind.
+int CarryOutOne(const PlannedRun& run, int jobs, const fs::path& folder) {
+  const fs::path run_folder = folder / run.run_id;
+  try {
+    try {
+      const Stopwatch watch;
+      RunRecord record = run.carry_out(run_folder);
+      record.provenance["run"] = {
+          {"wall_s", watch.ElapsedMs() / 1e3}, {"timed", run.timed}, {"jobs", jobs}};
+      WriteRunRecord(folder, record);
+      MarkDone(run_folder, run.key);
+      return static_cast<int>(ExitCode::kSuccess);
+    } catch (const std::exception& error) {
+      ThrowIfInterrupted();
+      MarkFailed(run_folder, run.key, error.what());
+      return static_cast<int>(ExitCode::kFailedRun);
+    }
+  } catch (const Error& error) {
+    return static_cast<int>(error.code());
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return static_cast<int>(ExitCode::kInternalError);
   }
-  return log;
 }
 
-void WriteSummary(const ExperimentRecord& experiment, const fs::path& folder) {
-  Json rows = Json::array();
-  for (const std::string& run_id : experiment.run_ids) {
-    if (experiment.failed_runs.contains(run_id)) continue;
-    rows.push_back(ReadRunRecord(folder, run_id).summary);
+class Scheduler {
+ public:
+  Scheduler(std::vector<const PlannedRun*> runs, int jobs, fs::path folder)
+      : runs_(std::move(runs)), jobs_(jobs), folder_(std::move(folder)) {
+    for (std::size_t i = 0; i < runs_.size(); ++i) pending_.push_back(i);
   }
-  const Json failed = experiment.failed_runs;
-  WriteWholeFile(
-      folder / "summary.json",
-      Json{{"experiment", experiment.name}, {"rows", rows}, {"failed_runs", failed}}.dump(2) +
-          "\n");
+
+  ExperimentOutcome Work() {
+    while (!pending_.empty() || children_.running() > 0) {
+      CollectEnded();
+      StartWhatCanBe();
+      ThrowIfInterrupted();
+      std::this_thread::sleep_for(kLookAgainAfter);
+    }
+    return outcome_;
+  }
+
+ private:
+  struct InFlight {
+    FileLock claim;
+    std::string prepares;  // the shared work that it has to do first; "" if that was done
+  };
+
+  // Looks at no run while all jobs are taken: asking has to be cheap, for times are being measured.
+  void StartWhatCanBe() {
+    std::erase_if(pending_, [this](std::size_t i) {
+      return children_.running() < jobs_ && (Settled(i) || Started(i));
+    });
+  }
+
+  // Whether the run needs nothing more: done before or, while we waited, by another process.
+  bool Settled(std::size_t i) {
+    const RunStatus status = StatusOf(FolderOf(i), runs_[i]->key);
+    if (status.state == RunState::kDone) ++outcome_.kept;
+    const bool failed_elsewhere = status.state == RunState::kFailed && elsewhere_.contains(i);
+    if (failed_elsewhere) ++outcome_.failed;
+    if (status.state == RunState::kRunning) NoteElsewhere(i);
+    return status.state == RunState::kDone || failed_elsewhere;
+  }
+
+  bool Started(std::size_t i) {
+    const PlannedRun& run = *runs_[i];
+    if (IsBeingPrepared(run)) return false;
+    std::optional<FileLock> claim = ClaimRun(FolderOf(i));
+    if (!claim) NoteElsewhere(i);
+    if (!claim || StatusOf(FolderOf(i), run.key).state == RunState::kDone) return false;
+    Begin(i, std::move(*claim));
+    return true;
+  }
+
+  void Begin(std::size_t i, FileLock claim) {
+    const PlannedRun& run = *runs_[i];
+    const fs::path messages = jobs_ > 1 ? FolderOf(i) / "messages" : fs::path();
+    MarkBegun(FolderOf(i));
+    RemoveUnfinished(FolderOf(i) / "estimate");
+    if (!messages.empty()) fs::remove(messages);
+    fmt::print(stderr, "run {}/{}: {}\n", i + 1, runs_.size(), run.run_id);
+    const bool prepares = run.shares && !run.shares->complete();
+    in_flight_.emplace(
+        i, InFlight{std::move(claim), prepares ? run.shares->path().string() : std::string()});
+    children_.Start(static_cast<int>(i), messages,
+                    [&run, this] { return CarryOutOne(run, jobs_, folder_); });
+  }
+
+  // A second run would only wait while the first does what they share.
+  bool IsBeingPrepared(const PlannedRun& run) const {
+    return run.shares && !run.shares->complete() &&
+           std::any_of(in_flight_.begin(), in_flight_.end(), [&run](const auto& item) {
+             return item.second.prepares == run.shares->path().string();
+           });
+  }
+
+  void CollectEnded() {
+    for (const ChildProcesses::End& end : children_.TakeEnded()) {
+      const auto i = static_cast<std::size_t>(end.id);
+      const PlannedRun& run = *runs_[i];
+      if (!end.problem.empty()) MarkFailed(FolderOf(i), run.key, end.problem);
+      in_flight_.erase(i);  // the claim ends
+      if (end.code == static_cast<int>(ExitCode::kInterrupted)) ThrowIfInterrupted();
+      if (end.code == static_cast<int>(ExitCode::kSuccess)) {
+        ++outcome_.done;
+        continue;
+      }
+      ++outcome_.failed;
+      const std::string reason = StatusOf(FolderOf(i), run.key).reason;
+      fmt::print(stderr, "run failed: {}: {}\n", run.run_id,
+                 reason.empty() ? "no status could be written" : reason);
+    }
+  }
+
+  void NoteElsewhere(std::size_t i) {
+    if (elsewhere_.insert(i).second)
+      fmt::print(stderr, "another process is at {}\n", runs_[i]->run_id);
+  }
+
+  fs::path FolderOf(std::size_t i) const { return folder_ / runs_[i]->run_id; }
+
+  std::vector<const PlannedRun*> runs_;
+  int jobs_;
+  fs::path folder_;
+  std::vector<std::size_t> pending_;
+  std::set<std::size_t> elsewhere_;  // those that another process was seen at
+  ExperimentOutcome outcome_;
+  std::map<std::size_t, InFlight> in_flight_;
+  ChildProcesses children_;  // goes first, so that claims outlive the children
+};
+
+ExperimentOutcome CarryOutPhase(const std::vector<PlannedRun>& runs, bool timed, int jobs,
+                                const fs::path& folder) {
+  std::vector<const PlannedRun*> chosen;
+  for (const PlannedRun& run : runs) {
+    if (run.timed == timed) chosen.push_back(&run);
+  }
+  if (chosen.empty()) return {};
+  const FileLock machine = LockMachine(timed ? LockKind::kExclusive : LockKind::kShared);
+  return Scheduler(chosen, timed ? 1 : jobs, folder).Work();
 }
 
 }  // namespace
 
-void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
-                   const BodyModel& subject, const fs::path& folder) {
-  const SequenceInfo& info = sequence.info();
-  const std::unique_ptr<Tracker> tracker = MakeTracker(method);
-  EstimateWriter writer(folder, subject.rest);
-  Progress progress("track " + method.method, info.frames);
-  tracker->Start(subject, info.camera);
-  for (int i = 0; i < info.frames; ++i) {
-    const DepthFrame frame{i, i / info.fps, sequence.ReadDepth(i)};
-    const Stopwatch watch;
-    const TrackResult result = tracker->TrackFrame(frame);
-    writer.Append(result, watch.ElapsedMs());
-    progress.Advance();
-  }
-  writer.Finish();
-}
-
-fs::path ObtainSequence(const std::string& name, const SceneSettings& scene,
-                        const fs::path& sequences) {
-  const KeptFolder kept(sequences, name, WriteSettings(scene));
-  if (kept.complete()) return kept.path();
-  SynthesizeSequence(scene, kept.path());
-  kept.MarkComplete();
-  return kept.path();
-}
-
-std::vector<PlannedRun> TrackingRuns(const ExperimentPlan& plan, const fs::path& folder,
-                                     const WorkFolders& work) {
-  std::vector<PlannedRun> runs;
-  for (const RunPlan& run : plan.runs) {
-    runs.push_back({run.run_id, WorkKey(run.resolved),
-                    [&run, name = plan.record.name, folder, work](const fs::path& run_folder) {
-                      RunRecord record = CarryOut(run, name, folder, work);
-                      WriteWholeFile(run_folder / "log", LogOf(run_folder / "estimate"));
-                      return record;
-                    }});
-  }
-  return runs;
-}
-
-ExperimentOutcome CarryOutRuns(const ExperimentRecord& planned, const std::vector<PlannedRun>& runs,
+ExperimentOutcome CarryOutRuns(const std::vector<PlannedRun>& runs, int jobs,
                                const fs::path& folder) {
-  ExperimentOutcome outcome;
-  ExperimentRecord experiment = planned;
   MakeFolder(folder);
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const PlannedRun& run = runs[i];
-    const fs::path run_folder = folder / run.run_id;
-    const std::string done = "done " + run.key + "\n";
-    if (MarkerOf(run_folder / "status") == done) {
-      ++outcome.kept;
-      continue;
-    }
-    MakeFolder(run_folder);
-    fs::remove(run_folder / "status");
-    fmt::print(stderr, "run {}/{}: {}\n", i + 1, runs.size(), run.run_id);
-    try {
-      WriteRunRecord(folder, run.carry_out(run_folder));
-      WriteWholeFile(run_folder / "status", done);
-      ++outcome.done;
-    } catch (const std::exception& error) {
-      ThrowIfInterrupted();
-      experiment.failed_runs[run.run_id] = error.what();
-      WriteWholeFile(run_folder / "status", fmt::format("failed: {}\n", error.what()));
-      fmt::print(stderr, "run failed: {}\n", error.what());
-      ++outcome.failed;
-    }
-  }
-  WriteExperimentRecord(folder, experiment);
-  WriteSummary(experiment, folder);
-  return outcome;
+  const ExperimentOutcome parallel = CarryOutPhase(runs, false, jobs, folder);
+  const ExperimentOutcome timed = CarryOutPhase(runs, true, jobs, folder);
+  return {parallel.done + timed.done, parallel.kept + timed.kept, parallel.failed + timed.failed};
 }
 
 }  // namespace vitruvia

@@ -1,55 +1,34 @@
-// Carries out the runs of an experiment: synthesise → track → score → record.
+// Carries out the runs of an experiment, each in a process of its own.
+//
+// Several callers may work on one folder at the same time, here or on other machines that share it:
+// whoever claims a run carries it out, the others go on with the next and wait for it at the end.
+// A caller that is stopped or killed loses the runs in flight; the next one goes on.
 #pragma once
 
 #include <filesystem>
-#include <functional>
-#include <string>
 #include <vector>
 
-#include "experiments/experiment_config.h"
-#include "records/estimate.h"
-#include "sequence/sequence.h"
+#include "experiments/planned_run.h"
 
 namespace vitruvia {
 
-// Where work is kept that several runs share.
-struct WorkFolders {
-  std::filesystem::path sequences;
-  std::filesystem::path learned;  // models and fitted subjects
-};
-
-// Tracks a whole sequence with that subject; the clock runs round TrackFrame only. The estimate
-// appears at `folder` whole or not at all.
-void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
-                   const BodyModel& subject, const std::filesystem::path& folder);
-
-// The sequence of a scene below `sequences`, made unless the very same one is there already (same
-// settings, same input files, same build).
-std::filesystem::path ObtainSequence(const std::string& name, const SceneSettings& scene,
-                                     const std::filesystem::path& sequences);
-
 struct ExperimentOutcome {
   int done = 0;    // runs carried out now
-  int kept = 0;    // runs found done by this same build
-  int failed = 0;  // runs that ended in an error, which the experiment's record names
+  int kept = 0;    // runs found done by this same build, or done by another caller meanwhile
+  int failed = 0;  // runs that ended in an error or a crash
 };
 
-// A run of any kind of experiment.
-struct PlannedRun {
-  std::string run_id;
-  std::string key;  // WorkKey() of all that its result depends on
-  // Does the work; writes what it likes into its own folder.
-  std::function<RunRecord(const std::filesystem::path& run_folder)> carry_out;
-};
+// Writes what status and report need to know of the whole grid: experiment.json and plan.json.
+void WritePlan(const Experiment& experiment, const std::filesystem::path& folder);
 
-// Carries out whatever is not yet done, one run after the other, and writes summary.json and the
-// experiment's record (records/run_record.h). A run that fails is recorded and the others go on.
-ExperimentOutcome CarryOutRuns(const ExperimentRecord& experiment,
-                               const std::vector<PlannedRun>& runs,
+// Carries out whatever of `runs` is not yet done, up to `jobs` at a time; timed runs last, one by
+// one, while no other run of this user goes on on this machine. A run that fails is recorded and
+// the others go on. Throws Error(kInterrupted) if a stop was asked for.
+ExperimentOutcome CarryOutRuns(const std::vector<PlannedRun>& runs, int jobs,
                                const std::filesystem::path& folder);
 
-// The runs of a tracking experiment.
-std::vector<PlannedRun> TrackingRuns(const ExperimentPlan& plan,
-                                     const std::filesystem::path& folder, const WorkFolders& work);
+// Writes experiment.json and summary.json anew, from what lies in the folder: whoever ends last
+// writes the same. Returns how many runs of the grid are neither done nor failed.
+int WriteSummary(const std::filesystem::path& folder);
 
 }  // namespace vitruvia

@@ -95,6 +95,13 @@ class TurnWatch {
   std::vector<BoneRotations> estimate_, truth_;
 };
 
+void RecordQuantiles(std::vector<double> errors_m, RunRecord& record) {
+  std::sort(errors_m.begin(), errors_m.end());  // once for all
+  record.frames["l2_median_m"].push_back(Quantile(errors_m, 0.5));
+  record.frames["l2_p95_m"].push_back(Quantile(errors_m, 0.95));
+  record.frames["l2_p99_m"].push_back(Quantile(errors_m, 0.99));
+}
+
 void ScoreSurface(const SequenceReader& sequence, const EstimateReader& estimate,
                   RunRecord& record) {
   TurnWatch turns(sequence, estimate);
@@ -107,10 +114,12 @@ void ScoreSurface(const SequenceReader& sequence, const EstimateReader& estimate
     const DepthImage& rendered = zbuffer.Render(true_vertices, sequence.true_rest_mesh().triangles);
     const std::vector<Vector3f> estimated = estimate.ReadVertices(frame);
     turns.Add(estimated, truth);
-    const VertexErrorSummary error = Summarize(
-        VertexErrors(estimated, truth), VisiblePoints(truth, rendered, camera, kVisibleWithin_m));
+    const std::vector<double> errors_m = VertexErrors(estimated, truth);
+    const VertexErrorSummary error =
+        Summarize(errors_m, VisiblePoints(truth, rendered, camera, kVisibleWithin_m));
     record.frames["l2_mean_m"].push_back(error.mean_m);
     record.frames["l2_max_m"].push_back(error.max_m);
+    RecordQuantiles(errors_m, record);
     record.frames["l2_mean_visible_m"].push_back(error.visible_mean_m);
     record.frames["l2_max_visible_m"].push_back(error.visible_max_m);
     record.frames["l2_mean_hidden_m"].push_back(error.hidden_mean_m);

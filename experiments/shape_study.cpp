@@ -19,7 +19,7 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* kMethod = "intrinsic_shape";
+constexpr const char* kShapeMethod = "intrinsic_shape";
 
 std::vector<float> Distances(const std::vector<Vector3f>& points, const TriangleMesh& surface) {
   const std::vector<SurfacePoint> nearest = ClosestSurfacePoints(points, surface);
@@ -42,7 +42,7 @@ Rigidf Alignment(const std::vector<Vector3f>& from, const std::vector<Vector3f>&
   return Rigidd{transform.topLeftCorner<3, 3>(), transform.topRightCorner<3, 1>()}.Cast<float>();
 }
 
-struct Study {
+struct ShapeStudy {
   ShapeStudySettings settings;
   LearningSettings learning;
   std::vector<ScanSettings> scans;
@@ -67,13 +67,13 @@ std::vector<SurfaceStrip> Strips(const std::string& person, const ScanResult& sc
             {"error, from behind", 180.0, {errors}}}}};
 }
 
-Json Resolved(const Study& study, std::size_t scan) {
+Json Resolved(const ShapeStudy& study, std::size_t scan) {
   return {{"learning", WriteSettings(study.learning)},
           {"scan", WriteSettings(study.scans[scan])},
           {"fit", WriteSettings(study.settings.fit)}};
 }
 
-RunRecord CarryOut(const Study& study, std::size_t scan_number, int person_number,
+RunRecord CarryOut(const ShapeStudy& study, std::size_t scan_number, int person_number,
                    const std::string& experiment, const std::string& run_id,
                    const fs::path& run_folder) {
   const LearnedModel model = ObtainLearnedModel(study.learning, study.work.learned);
@@ -96,14 +96,14 @@ RunRecord CarryOut(const Study& study, std::size_t scan_number, int person_numbe
   record.experiment = experiment;
   record.variant = study.settings.scans[scan_number].name;
   record.scene = person;
-  record.method = kMethod;
+  record.method = kShapeMethod;
   record.config = Resolved(study, scan_number);
   record.provenance = TimedProvenance();
   record.summary = {
       {"run_id", run_id},
       {"variant", record.variant},
       {"scene", person},
-      {"method", kMethod},
+      {"method", kShapeMethod},
       {"surface_mean_m", error.surface_mean_m},
       {"surface_max_m", error.surface_max_m},
       {"vertex_mean_m", error.vertex_mean_m},
@@ -119,7 +119,7 @@ RunRecord CarryOut(const Study& study, std::size_t scan_number, int person_numbe
   return record;
 }
 
-std::string RunId(const Study& study, std::size_t scan, int person) {
+std::string RunId(const ShapeStudy& study, std::size_t scan, int person) {
   return fmt::format("{}.s{:03}.{}", study.settings.scans[scan].name, person,
                      Hash64().Add(Resolved(study, scan).dump()).Hex().substr(0, 8));
 }
@@ -175,7 +175,7 @@ ShapeError CompareShapes(const BodyModel& fitted, const BodyModel& truth) {
 }
 
 Experiment PlanShapeStudy(const fs::path& file, const WorkFolders& work) {
-  const auto study = std::make_shared<Study>();
+  const auto study = std::make_shared<ShapeStudy>();
   study->settings = ReadSettingsFile<ShapeStudySettings>(file);
   study->learning = ReadLearningSettings(study->settings.learning);
   study->work = work;
@@ -198,11 +198,16 @@ Experiment PlanShapeStudy(const fs::path& file, const WorkFolders& work) {
     for (int person = first; person < first + study->settings.people; ++person) {
       const std::string run_id = RunId(*study, scan, person);
       experiment.record.run_ids.push_back(run_id);
-      experiment.runs.push_back(
-          {run_id, WorkKey(Resolved(*study, scan)),
-           [study, scan, person, run_id, name = experiment.record.name](const fs::path& folder) {
-             return CarryOut(*study, scan, person, name, run_id, folder);
-           }});
+      PlannedRun run;
+      run.run_id = run_id;
+      run.key = WorkKey(Resolved(*study, scan));
+      run.carry_out = [study, scan, person, run_id,
+                       name = experiment.record.name](const fs::path& folder) {
+        return CarryOut(*study, scan, person, name, run_id, folder);
+      };
+      run.method = kShapeMethod;
+      run.variant = study->settings.scans[scan].name;
+      experiment.runs.push_back(std::move(run));
     }
   }
   return experiment;

@@ -15,10 +15,10 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* kMethod = "skinning_weights";
+constexpr const char* kWeightMethod = "skinning_weights";
 constexpr float kPictureHeight_m = 1.0f;  // of a pose's middle: poses are drawn side by side
 
-struct Study {
+struct WeightStudy {
   WeightStudySettings settings;
   LearningSettings learning;
   WorkFolders work;
@@ -54,7 +54,7 @@ SurfaceStrip Strip(int pose, const std::vector<Vector3f>& truth, const std::vect
        {"error, from behind", 180.0, {errors}}}};
 }
 
-RunRecord CarryOut(const Study& study, int person_number, const std::string& experiment,
+RunRecord CarryOut(const WeightStudy& study, int person_number, const std::string& experiment,
                    const std::string& run_id, const fs::path& run_folder) {
   const LearnedModel model = ObtainLearnedModel(study.learning, study.work.learned);
   const BodyModel& reference = model.space.reference;
@@ -84,13 +84,13 @@ RunRecord CarryOut(const Study& study, int person_number, const std::string& exp
   record.experiment = experiment;
   record.variant = "held_out";
   record.scene = person;
-  record.method = kMethod;
+  record.method = kWeightMethod;
   record.config = {{"learning", WriteSettings(study.learning)}};
   record.provenance = TimedProvenance();
   record.summary = {{"run_id", run_id},
                     {"variant", record.variant},
                     {"scene", person},
-                    {"method", kMethod},
+                    {"method", kWeightMethod},
                     {"poses", examples.poses.size()},
                     {"surface_mean_m", Mean(all)},
                     {"surface_p95_m", Quantile(all, 0.95)},
@@ -115,7 +115,7 @@ void WeightStudySettings::Describe(Fields& f) {
 }
 
 Experiment PlanWeightStudy(const fs::path& file, const WorkFolders& work) {
-  const auto study = std::make_shared<Study>();
+  const auto study = std::make_shared<WeightStudy>();
   study->settings = ReadSettingsFile<WeightStudySettings>(file);
   study->learning = ReadLearningSettings(study->settings.learning);
   study->work = work;
@@ -136,11 +136,14 @@ Experiment PlanWeightStudy(const fs::path& file, const WorkFolders& work) {
   for (int person = first; person < first + study->settings.people; ++person) {
     const std::string run_id = fmt::format("held_out.{}.{}", SubjectName(person), hash);
     experiment.record.run_ids.push_back(run_id);
-    experiment.runs.push_back(
-        {run_id, WorkKey({{"learning", resolved}, {"pictures", study->settings.picture_poses}}),
-         [study, person, run_id, name = experiment.record.name](const fs::path& folder) {
-           return CarryOut(*study, person, name, run_id, folder);
-         }});
+    PlannedRun run;
+    run.run_id = run_id;
+    run.key = WorkKey({{"learning", resolved}, {"pictures", study->settings.picture_poses}});
+    run.carry_out = [study, person, run_id, name = experiment.record.name](const fs::path& folder) {
+      return CarryOut(*study, person, name, run_id, folder);
+    };
+    run.method = kWeightMethod;
+    experiment.runs.push_back(std::move(run));
   }
   return experiment;
 }

@@ -1,5 +1,6 @@
 #include "core/files.h"
 
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -13,10 +14,25 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
+// The computer's name: several may share a folder.
+std::string HostName() {
+  std::array<char, 256> name{};
+  gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
+
+std::string TemporaryPrefix(const fs::path& destination) {
+  return fmt::format(".{}.", destination.filename().string());
+}
+
+constexpr const char* kTemporaryEnd = ".part";
+constexpr const char* kOldEnd = ".old";  // of what a staged folder replaces
+
 // Beside the destination, so that the final rename stays on one file system.
 fs::path TemporaryName(const fs::path& destination) {
+  static const std::string host = HostName();
   return destination.parent_path() /
-         fmt::format(".{}.{}.part", destination.filename().string(), getpid());
+         fmt::format("{}{}-{}{}", TemporaryPrefix(destination), host, getpid(), kTemporaryEnd);
 }
 
 }  // namespace
@@ -56,6 +72,16 @@ void MakeFolder(const fs::path& folder) {
   }
 }
 
+void RemoveUnfinished(const fs::path& destination) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(destination.parent_path(), ignored)) {
+    const std::string name = entry.path().filename().string();
+    const bool unfinished = name.starts_with(TemporaryPrefix(destination)) &&
+                            (name.ends_with(kTemporaryEnd) || name.ends_with(kOldEnd));
+    if (unfinished) fs::remove_all(entry.path(), ignored);
+  }
+}
+
 StagedFolder::StagedFolder(fs::path destination, const std::string& mark)
     : destination_(std::move(destination)) {
   if (!destination_.has_filename()) destination_ = destination_.parent_path();
@@ -91,7 +117,7 @@ void StagedFolder::Commit() {
   // The old folder steps aside first and is removed last, so that either it or the new one is
   // whole.
   fs::path old = staging_;
-  old += ".old";
+  old += kOldEnd;
   std::error_code error;
   const bool replaces = fs::exists(destination_, error);
   if (replaces) fs::rename(destination_, old, error);

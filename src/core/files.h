@@ -17,6 +17,10 @@ void WriteWholeFile(const std::filesystem::path& file, std::string_view content)
 // RunError naming the folder and the reason if it neither exists nor can be made.
 void MakeFolder(const std::filesystem::path& folder);
 
+// Removes what a process that was killed left unfinished beside the destination, a file or a folder
+// that nobody else may be writing now.
+void RemoveUnfinished(const std::filesystem::path& destination);
+
 // A folder that is filled under a temporary name beside its destination and appears there only on
 // Commit(); an uncommitted one is removed again. An existing destination is replaced on Commit(),
 // but only one that is empty or holds `mark`, a file that every folder of this kind has: a mistyped

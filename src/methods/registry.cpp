@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/settings_schema.h"
 #include "methods/dynamic/dynamic.h"
+#include "methods/external/external.h"
 #include "methods/realtime_scape/realtime_scape.h"
 
 namespace vitruvia {
@@ -34,7 +35,9 @@ const std::vector<Entry>& Entries() {
           "realtime_scape", "paper A: LBS body of 17 bones, four-term energy, conjugate gradients"),
       MakeEntry<dynamic::Dynamic, dynamic::Settings>(
           "dynamic",
-          "paper B: dual-quaternion joints, projective association, a warp for every vertex")};
+          "paper B: dual-quaternion joints, projective association, a warp for every vertex"),
+      MakeEntry<external::External, external::Settings>(
+          "external", "a tracker of your own: a program (src/methods/external/PROTOCOL.md)")};
   return entries;
 }
 
@@ -83,7 +86,7 @@ Json MethodFileSchema() {
   for (const MethodInfo& method : Methods()) {
     names.push_back(method.name);
     schema["allOf"].push_back(
-        {{"if", {{"properties", {{"method", {{"const", method.name}}}}}}},
+        {{"if", {{"required", {"method"}}, {"properties", {{"method", {{"const", method.name}}}}}}},
          {"then", {{"properties", {{"settings", SettingsSchema(method.visit_settings)}}}}}});
   }
   schema["properties"]["method"]["enum"] = names;

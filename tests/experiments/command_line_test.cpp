@@ -1,62 +1,26 @@
 // The command line from end to end on a dozen small frames: what it writes, and how it refuses.
+#include "experiments/command_line.h"
+
 #include <fstream>
 
 #include <gtest/gtest.h>
 
-#include "core/error.h"
 #include "core/files.h"
-#include "core/json_settings.h"
-#include "experiments/commands.h"
 #include "experiments/experiment_config.h"
 #include "experiments/score.h"
-#include "support/temporary_folder.h"
 
 namespace vitruvia {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path kConfigs = fs::path(VITRUVIA_SOURCE_DIR) / "configs";
 
-struct CallResult {
-  int code;
-  std::string out, error;
-};
-
-CallResult Call(const std::vector<std::string>& arguments) {
-  std::vector<const char*> argv = {"vitruvia"};
-  for (const std::string& argument : arguments) argv.push_back(argument.c_str());
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
-  const int code = RunCommandLine(static_cast<int>(argv.size()), argv.data());
-  return {code, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
-}
-
-void ExpectRefusal(const std::vector<std::string>& arguments, ExitCode code,
-                   const std::vector<std::string>& words) {
-  const CallResult outcome = Call(arguments);
-  EXPECT_EQ(outcome.code, static_cast<int>(code)) << outcome.error;
-  for (const std::string& word : words)
-    EXPECT_NE(outcome.error.find(word), std::string::npos) << outcome.error;
-}
-
-void Write(const fs::path& file, const Json& json) { WriteWholeFile(file, json.dump()); }
-
-// An experiment on the tiny scene with the default method, its files in a folder of the test's own.
 class CommandLine : public testing::Test {
  protected:
-  CommandLine() {
-    Json scene = ReadJsonFile(kConfigs / "scenes" / "small.json");
-    scene["motion"]["file"] = (kConfigs / "motions" / "arm_wave.json").string();
-    Write(folder_ / "scene.json", scene);
-    Write(folder_ / "method.json", {{"method", "realtime_scape"}});
-    Write(folder_ / "experiment.json", Experiment());
+  static Json Experiment() { return SmallExperiment::Config(); }
+  std::string File(const std::string& name) const { return folder_.File(name); }
+  static CallResult Call(const std::vector<std::string>& arguments) {
+    return CallVitruvia(arguments);
   }
-
-  static Json Experiment() {
-    return {{"title", "Test"}, {"scenes", {"scene.json"}}, {"methods", {"method.json"}}};
-  }
-
-  std::string File(const std::string& name) const { return (folder_ / name).string(); }
 
   // A sequence of the tiny scene, fresh for a test to damage.
   std::string Sequence() const {
@@ -69,17 +33,10 @@ class CommandLine : public testing::Test {
     return Call({"track", File("method.json"), "--sequence", sequence, "-o", File("estimate")});
   }
 
-  TemporaryFolder folder_;
+  SmallExperiment folder_;
 };
 
-// Everything of a run's record but what a clock or this build says.
-Json WithoutClock(Json record) {
-  for (const char* key : {"provenance", "steps"}) record.erase(key);
-  record["frames"].erase("frame_ms");
-  for (const char* key : {"frame_ms_median", "frame_ms_p95", "frame_ms_max"})
-    record["summary"].erase(key);
-  return record;
-}
+void Write(const fs::path& file, const Json& json) { WriteWholeFile(file, json.dump()); }
 
 Json OnlyRecord(const fs::path& experiment_folder) {
   const Json summary = ReadJsonFile(experiment_folder / "summary.json");

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
-#include "experiments/command_outcome.h"
-#include "experiments/tiny_experiment.h"
+#include "core/files.h"
+#include "experiments/command_line.h"
 
 namespace vitruvia {
 namespace {
@@ -10,25 +10,25 @@ using testing::HasSubstr;
 class Compare : public testing::Test {
  protected:
   void Run(const std::string& folder) const {
-    Json experiment = files_.Read("experiment.json");
+    Json experiment = ReadJsonFile(files_ / "experiment.json");
     experiment["variants"] = {
         {{"name", "all"}}, {{"name", "no_axis"}, {"method", {{"settings", {{"axis_weight", 0}}}}}}};
     files_.Write("variants.json", experiment);
-    ASSERT_EQ(CallCommand({"run", files_.File("variants.json"), "-o", files_.File(folder)}).code,
-              ExitCode::kSuccess);
+    ASSERT_EQ(CallVitruvia({"run", files_.File("variants.json"), "-o", files_.File(folder)}).code,
+              static_cast<int>(ExitCode::kSuccess));
   }
 
-  TinyExperiment files_;
+  SmallExperiment files_;
 };
 
 TEST_F(Compare, PrintsATableAndWritesIt) {
   Run("out");
-  const CommandOutcome outcome =
-      CallCommand({"compare", files_.File("out"), "-o", files_.File("tables/variants.json")});
-  ASSERT_EQ(outcome.code, ExitCode::kSuccess) << outcome.error;
+  const CallResult outcome =
+      CallVitruvia({"compare", files_.File("out"), "-o", files_.File("tables/variants.json")});
+  ASSERT_EQ(outcome.code, static_cast<int>(ExitCode::kSuccess)) << outcome.error;
   EXPECT_THAT(outcome.out, HasSubstr("mean L2 error / diagonal"));
   EXPECT_THAT(outcome.out, HasSubstr("1 pairs  too few pairs"));
-  const Json row = files_.Read("tables/variants.json").at("rows").at(0);
+  const Json row = ReadJsonFile(files_ / "tables/variants.json").at("rows").at(0);
   EXPECT_EQ(row.at("reference"), "all");
   EXPECT_EQ(row.at("other"), "no_axis");
   EXPECT_EQ(row.at("pairs"), 1);
@@ -40,10 +40,10 @@ TEST_F(Compare, PrintsATableAndWritesIt) {
 TEST_F(Compare, TheSameRunsOfTwoFoldersDoNotDiffer) {
   Run("first");
   Run("second");
-  const CommandOutcome outcome =
-      CallCommand({"compare", files_.File("first"), files_.File("second"), "--metric", "l2_mean_m",
-                   "-o", files_.File("table.csv")});
-  ASSERT_EQ(outcome.code, ExitCode::kSuccess) << outcome.error;
+  const CallResult outcome =
+      CallVitruvia({"compare", files_.File("first"), files_.File("second"), "--metric", "l2_mean_m",
+                    "-o", files_.File("table.csv")});
+  ASSERT_EQ(outcome.code, static_cast<int>(ExitCode::kSuccess)) << outcome.error;
   EXPECT_THAT(outcome.out, HasSubstr("second: all"));
   EXPECT_THAT(ReadWholeFile(files_.File("table.csv")), HasSubstr(",2,0,"));
 }
@@ -54,8 +54,8 @@ TEST_F(Compare, BadInputIsNamed) {
                            const std::string& words) {
     std::vector<std::string> arguments = {"compare"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    const CommandOutcome outcome = CallCommand(arguments);
-    EXPECT_EQ(outcome.code, code) << outcome.error;
+    const CallResult outcome = CallVitruvia(arguments);
+    EXPECT_EQ(outcome.code, static_cast<int>(code)) << outcome.error;
     EXPECT_THAT(outcome.error, HasSubstr(words));
   };
   const std::string out = files_.File("out");

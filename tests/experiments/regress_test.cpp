@@ -4,8 +4,8 @@
 
 #include <gmock/gmock.h>
 
-#include "experiments/command_outcome.h"
-#include "experiments/tiny_experiment.h"
+#include "core/files.h"
+#include "experiments/command_line.h"
 
 namespace vitruvia {
 namespace {
@@ -20,18 +20,18 @@ class Regress : public testing::Test {
                   {"experiments", {{{"experiment", "experiment.json"}, {"repeats", 2}}}}});
   }
 
-  CommandOutcome Call(const std::vector<std::string>& more) const {
+  CallResult Call(const std::vector<std::string>& more) const {
     std::vector<std::string> words = {"regress",    files_.File("nightly.json"),
                                       "--baseline", files_.File("base"),
                                       "-o",         files_.File("out")};
     words.insert(words.end(), more.begin(), more.end());
-    return CallCommand(words);
+    return CallVitruvia(words);
   }
 
   // Measures, and takes that as the baseline.
   void TakeBaseline() const {
-    const CommandOutcome outcome = Call({"--update", "--reason", "the first"});
-    ASSERT_EQ(outcome.code, ExitCode::kSuccess) << outcome.error;
+    const CallResult outcome = Call({"--update", "--reason", "the first"});
+    ASSERT_EQ(outcome.code, static_cast<int>(ExitCode::kSuccess)) << outcome.error;
   }
 
   // Changes the stored record of every repeat.
@@ -48,14 +48,14 @@ class Regress : public testing::Test {
     return ReadWholeFile(files_.File("out/regression." + ending));
   }
 
-  TinyExperiment files_;
+  SmallExperiment files_;
 };
 
 TEST_F(Regress, UnchangedNumbersPassAndTheReasonIsKept) {
   TakeBaseline();
-  EXPECT_EQ(Call({"--stored"}).code, ExitCode::kSuccess);
+  EXPECT_EQ(Call({"--stored"}).code, static_cast<int>(ExitCode::kSuccess));
   EXPECT_THAT(Report("md"), HasSubstr("# Tiny: ok: "));
-  const Json baseline = files_.Read("base/nightly.json");
+  const Json baseline = ReadJsonFile(files_ / "base/nightly.json");
   EXPECT_EQ(baseline.at("renewals").at(0).at("reason"), "the first");
   const Json run = baseline.at("runs").at(0);
   EXPECT_EQ(run.at("experiment"), "experiment");
@@ -65,20 +65,22 @@ TEST_F(Regress, UnchangedNumbersPassAndTheReasonIsKept) {
     EXPECT_TRUE(run.at("accuracy").contains(metric)) << metric;
   EXPECT_TRUE(run.at("speed").contains("frame"));
   EXPECT_GT(run.at("calibration_ms").get<double>(), 0.0);
-  ASSERT_EQ(Call({"--stored", "--update", "--reason", "the second"}).code, ExitCode::kSuccess);
-  EXPECT_EQ(files_.Read("base/nightly.json").at("renewals").at(1).at("reason"), "the second");
+  ASSERT_EQ(Call({"--stored", "--update", "--reason", "the second"}).code,
+            static_cast<int>(ExitCode::kSuccess));
+  EXPECT_EQ(ReadJsonFile(files_ / "base/nightly.json").at("renewals").at(1).at("reason"),
+            "the second");
 }
 
 TEST_F(Regress, AChangedWeightOfATermTripsAccuracy) {
   TakeBaseline();
   files_.Write("method.json",
                {{"method", "realtime_scape"}, {"settings", {{"fit", {{"surface_weight", 0.0}}}}}});
-  const CommandOutcome outcome = Call({});  // measures anew
-  EXPECT_EQ(outcome.code, ExitCode::kAccuracyRegressed) << outcome.out;
+  const CallResult outcome = Call({});  // measures anew
+  EXPECT_EQ(outcome.code, static_cast<int>(ExitCode::kAccuracyRegressed)) << outcome.out;
   EXPECT_THAT(outcome.error, HasSubstr("vitruvia: regress: accuracy regressed: "));
   EXPECT_THAT(Report("md"), HasSubstr("| `experiment: default.scene.method.s1` | l2_mean_m | "));
   EXPECT_THAT(Report("xml"), HasSubstr("name=\"accuracy\">\n    <failure message=\""));
-  const Json history = files_.Read("out/history.json");
+  const Json history = ReadJsonFile(files_ / "out/history.json");
   ASSERT_EQ(history.size(), 1u);
   EXPECT_EQ(history.at(0).at("exit_code"), static_cast<int>(ExitCode::kAccuracyRegressed));
 }
@@ -95,9 +97,9 @@ TEST_F(Regress, AStepSlowedByThirtyPercentTripsSpeed) {
     record["summary"]["frame_ms_median"] =
         record["summary"]["frame_ms_median"].get<double>() + 0.3 * ms;
   });
-  const CommandOutcome outcome = Call({"--stored"});
-  EXPECT_EQ(outcome.code, ExitCode::kSpeedRegressed) << outcome.out;
-  EXPECT_EQ(files_.Read("out/regression.json").at("exit_code"), 6);
+  const CallResult outcome = Call({"--stored"});
+  EXPECT_EQ(outcome.code, static_cast<int>(ExitCode::kSpeedRegressed)) << outcome.out;
+  EXPECT_EQ(ReadJsonFile(files_ / "out/regression.json").at("exit_code"), 6);
 }
 
 TEST_F(Regress, AnImprovementIsToldAndPasses) {
@@ -105,44 +107,44 @@ TEST_F(Regress, AnImprovementIsToldAndPasses) {
   Doctor([](Json& record) {
     record["summary"]["l2_mean_m"] = 0.5 * record["summary"]["l2_mean_m"].get<double>();
   });
-  EXPECT_EQ(Call({"--stored"}).code, ExitCode::kSuccess);
+  EXPECT_EQ(Call({"--stored"}).code, static_cast<int>(ExitCode::kSuccess));
   EXPECT_THAT(Report("md"), HasSubstr("## Improved beyond tolerance"));
 }
 
 TEST_F(Regress, ARunThatEndsInAnErrorTripsFailed) {
   TakeBaseline();
-  Json scene = files_.Read("scene.json");
+  Json scene = ReadJsonFile(files_ / "scene.json");
   scene["motion"]["file"] = "gone.json";
   files_.Write("scene.json", scene);
-  const CommandOutcome outcome = Call({});
-  EXPECT_EQ(outcome.code, ExitCode::kFailedRun) << outcome.out;
+  const CallResult outcome = Call({});
+  EXPECT_EQ(outcome.code, static_cast<int>(ExitCode::kFailedRun)) << outcome.out;
   EXPECT_THAT(Report("md"), HasSubstr("gone.json"));
   EXPECT_THAT(Report("xml"), HasSubstr("<error message=\"repeat 2: failed: "));
-  const CommandOutcome renewal = Call({"--stored", "--update", "--reason", "none"});
-  EXPECT_EQ(renewal.code, ExitCode::kFailedRun);
+  const CallResult renewal = Call({"--stored", "--update", "--reason", "none"});
+  EXPECT_EQ(renewal.code, static_cast<int>(ExitCode::kFailedRun));
   EXPECT_THAT(renewal.error, HasSubstr("not renewed, since a run failed"));
 }
 
 TEST_F(Regress, NothingMeasuredIsNoSuccess) {
   TakeBaseline();
-  const CommandOutcome empty = Call({"--only", "nosuch"});
-  EXPECT_EQ(empty.code, ExitCode::kNothingMeasured);
+  const CallResult empty = Call({"--only", "nosuch"});
+  EXPECT_EQ(empty.code, static_cast<int>(ExitCode::kNothingMeasured));
   EXPECT_THAT(empty.error, HasSubstr("regress: nothing measured"));
   EXPECT_THAT(Report("xml"), HasSubstr("errors=\"1\""));
-  Json baseline = files_.Read("base/nightly.json");
+  Json baseline = ReadJsonFile(files_ / "base/nightly.json");
   Json gone = baseline.at("runs").at(0);
   gone["scene"] = "gone";
   baseline["runs"].push_back(gone);
   files_.Write("base/nightly.json", baseline);
-  EXPECT_EQ(Call({"--stored"}).code, ExitCode::kNothingMeasured);
+  EXPECT_EQ(Call({"--stored"}).code, static_cast<int>(ExitCode::kNothingMeasured));
   EXPECT_THAT(Report("md"), HasSubstr("- `experiment: default.gone.method.s1`"));
 }
 
 TEST_F(Regress, BadInputIsRefusedBeforeAnythingIsMeasured) {
   const auto refused = [&](const std::vector<std::string>& more, ExitCode code,
                            const std::string& words) {
-    const CommandOutcome outcome = Call(more);
-    EXPECT_EQ(outcome.code, code) << outcome.error;
+    const CallResult outcome = Call(more);
+    EXPECT_EQ(outcome.code, static_cast<int>(code)) << outcome.error;
     EXPECT_THAT(outcome.error, HasSubstr(words));
     EXPECT_FALSE(fs::exists(files_.File("out")));
   };
@@ -168,7 +170,7 @@ TEST_F(Regress, BadInputIsRefusedBeforeAnythingIsMeasured) {
 TEST_F(Regress, StoredNumbersThatAreNotThereAreBadData) {
   TakeBaseline();
   fs::remove_all(files_.File("out/repeat-2"));
-  EXPECT_EQ(Call({"--stored"}).code, ExitCode::kBadData);
+  EXPECT_EQ(Call({"--stored"}).code, static_cast<int>(ExitCode::kBadData));
 }
 
 }  // namespace

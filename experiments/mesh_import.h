@@ -1,0 +1,37 @@
+// Mesh sequences of others made into sequences of ours: one mesh file for each frame, all of one
+// topology, are rendered as a depth camera sees them; the meshes themselves are the truth.
+#pragma once
+
+#include <filesystem>
+
+#include "synth/scene/scene.h"
+
+namespace vitruvia {
+
+enum class MeshFrame {
+  kCamera,   // x right, y down, z away from the camera
+  kSubject,  // y up, the floor at y = 0, the person's front to +z; `view` says where the camera is
+};
+
+struct MeshSequenceSettings {
+  std::string title;
+  std::filesystem::path meshes;  // folder of .obj, .ply or .off files: frames in the order of names
+  std::filesystem::path subject;  // what a tracker may know: mesh.ply, subject.json, weights.bin
+  std::filesystem::path rest;     // the frames' mesh in the subject's rest pose, subject frame
+  MeshFrame frame = MeshFrame::kSubject;
+  double unit_m = 1.0;  // of the frames and the rest mesh
+  ViewSettings view;
+  SensorSettings sensor;
+  double fps = 30.0;
+  int seed = 1;
+
+  void Describe(Fields& fields);
+};
+
+// Writes the sequence (sequence/sequence.h). The true joints are carried by the vertices that
+// follow one bone of the subject alone, each by the rigid motion that fits them best. DataError
+// naming the file if a mesh is damaged, has other triangles than the rest mesh, or lies behind the
+// camera.
+void ImportMeshSequence(const MeshSequenceSettings& settings, const std::filesystem::path& folder);
+
+}  // namespace vitruvia

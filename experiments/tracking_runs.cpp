@@ -1,0 +1,105 @@
+#include "experiments/tracking_runs.h"
+
+#include "core/build_info.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/progress.h"
+#include "core/timer.h"
+#include "experiments/kept_work.h"
+#include "experiments/score.h"
+
+namespace vitruvia {
+namespace fs = std::filesystem;
+namespace {
+
+// The sequence of a scene, made unless the very same one is there already (same settings, same
+// input files, same build).
+KeptFolder SequenceOf(const RunPlan& run, const WorkFolders& work) {
+  return {work.sequences, run.scene, WriteSettings(run.scene_settings)};
+}
+
+RunRecord CarryOut(const RunPlan& run, const std::string& experiment, const fs::path& folder,
+                   const WorkFolders& work) {
+  const KeptFolder kept = SequenceOf(run, work);
+  kept.Obtain([&run](const fs::path& made) { SynthesizeSequence(run.scene_settings, made); });
+  const SequenceReader sequence(kept.path());
+  const BodyModel subject =
+      run.subject ? ObtainFittedSubject(*run.subject, run.scene_settings, work.learned)
+                  : sequence.subject();
+  TrackSequence(sequence, run.method, subject, folder / run.run_id / "estimate");
+
+  RunRecord record;
+  record.run_id = run.run_id;
+  record.experiment = experiment;
+  record.variant = run.variant;
+  record.scene = run.scene;
+  record.method = run.method_name;
+  record.seed = run.seed;
+  record.config = run.resolved;
+  record.provenance = TimedProvenance();
+  record.sequence_folder = fs::absolute(kept.path()).lexically_relative(fs::absolute(folder));
+  record.sequence_hash = sequence.hash();
+  record.summary = {{"run_id", run.run_id},
+                    {"variant", run.variant},
+                    {"scene", run.scene},
+                    {"seed", run.seed},
+                    {"method", run.method_name}};
+  if (run.repeat > 0) record.summary["repeat"] = run.repeat;
+  ScoreRun(sequence, EstimateReader(folder / run.run_id / "estimate"), record);
+  return record;
+}
+
+std::string LogOf(const fs::path& estimate_folder) {
+  std::string log;
+  const EstimateReader estimate(estimate_folder);
+  for (std::size_t i = 0; i < estimate.frames().size(); ++i) {
+    const FrameEstimate& frame = estimate.frames()[i];
+    if (frame.message.empty()) continue;
+    log += fmt::format("frame {}: {}: {}\n", i, Name(frame.outcome), frame.message);
+  }
+  return log;
+}
+
+}  // namespace
+
+void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
+                   const BodyModel& subject, const fs::path& folder) {
+  const SequenceInfo& info = sequence.info();
+  const std::unique_ptr<Tracker> tracker = MakeTracker(method);
+  EstimateWriter writer(folder, subject.rest);
+  Progress progress("track " + method.method, info.frames);
+  tracker->Start(subject, info.camera);
+  for (int i = 0; i < info.frames; ++i) {
+    const DepthFrame frame{i, i / info.fps, sequence.ReadDepth(i)};
+    const Stopwatch watch;
+    const TrackResult result = tracker->TrackFrame(frame);
+    writer.Append(result, watch.ElapsedMs());
+    progress.Advance();
+  }
+  writer.Finish();
+}
+
+std::vector<PlannedRun> TrackingRuns(const ExperimentPlan& plan, const fs::path& folder,
+                                     const WorkFolders& work) {
+  std::vector<PlannedRun> runs;
+  for (const RunPlan& run : plan.runs) {
+    PlannedRun planned;
+    planned.run_id = run.run_id;
+    planned.key = WorkKey(run.resolved);
+    planned.carry_out = [&run, name = plan.record.name, folder, work](const fs::path& run_folder) {
+      RunRecord record = CarryOut(run, name, folder, work);
+      WriteWholeFile(run_folder / "log", LogOf(run_folder / "estimate"));
+      return record;
+    };
+    planned.variant = run.variant;
+    planned.scene = run.scene;
+    planned.method = run.method_name;
+    planned.frames = run.scene_settings.frames;
+    planned.timed = plan.timed;
+    planned.shares = SequenceOf(run, work);
+    runs.push_back(std::move(planned));
+  }
+  return runs;
+}
+
+}  // namespace vitruvia

@@ -1,0 +1,20 @@
+// Settings of a tracker that is a program of its own.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/settings.h"
+
+namespace vitruvia::external {
+
+struct Settings {
+  std::filesystem::path program;  // relative to the method file; started without a shell
+  std::vector<std::string> arguments;
+  double answer_within_s = 60.0;
+
+  void Describe(Fields& fields);
+};
+
+}  // namespace vitruvia::external

@@ -1,0 +1,72 @@
+#include "experiments/command_line.h"
+
+#include <gtest/gtest.h>
+
+#include "core/files.h"
+#include "experiments/commands.h"
+
+namespace vitruvia {
+namespace fs = std::filesystem;
+namespace {
+
+const fs::path kConfigs = fs::path(VITRUVIA_SOURCE_DIR) / "configs";
+
+Json RowWithoutClock(Json row) {
+  for (const char* key : {"frame_ms_median", "frame_ms_p95", "frame_ms_max"}) row.erase(key);
+  return row;
+}
+
+}  // namespace
+
+CallResult CallVitruvia(const std::vector<std::string>& arguments) {
+  std::vector<const char*> argv = {"vitruvia"};
+  for (const std::string& argument : arguments) argv.push_back(argument.c_str());
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const int code = RunCommandLine(static_cast<int>(argv.size()), argv.data());
+  return {code, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
+}
+
+void ExpectRefusal(const std::vector<std::string>& arguments, ExitCode code,
+                   const std::vector<std::string>& words) {
+  const CallResult outcome = CallVitruvia(arguments);
+  EXPECT_EQ(outcome.code, static_cast<int>(code)) << outcome.error;
+  for (const std::string& word : words)
+    EXPECT_NE(outcome.error.find(word), std::string::npos) << outcome.error;
+}
+
+SmallExperiment::SmallExperiment() {
+  Json scene = ReadJsonFile(kConfigs / "scenes" / "small.json");
+  scene["motion"]["file"] = (kConfigs / "motions" / "arm_wave.json").string();
+  Write("scene.json", scene);
+  Write("method.json", {{"method", "realtime_scape"}});
+  Write("experiment.json", Config());
+}
+
+Json SmallExperiment::Config() {
+  return {{"title", "Test"}, {"scenes", {"scene.json"}}, {"methods", {"method.json"}}};
+}
+
+void SmallExperiment::Write(const std::string& name, const Json& json) const {
+  WriteWholeFile(folder_ / name, json.dump());
+}
+
+Json WithoutClock(Json record) {
+  for (const char* key : {"provenance", "steps"}) record.erase(key);
+  record["frames"].erase("frame_ms");
+  record["summary"] = RowWithoutClock(record["summary"]);
+  return record;
+}
+
+Json ResultOf(const fs::path& experiment_folder) {
+  Json result = ReadJsonFile(experiment_folder / "summary.json");
+  for (Json& row : result.at("rows")) {
+    const std::string run_id = row.at("run_id");
+    row = RowWithoutClock(row);
+    result["records"][run_id] =
+        WithoutClock(ReadJsonFile(experiment_folder / run_id / "record.json"));
+  }
+  return result;
+}
+
+}  // namespace vitruvia

@@ -1,0 +1,143 @@
+// A sequence taken apart into mesh files and imported again: the same sequence.
+#include "experiments/mesh_import.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/files.h"
+#include "experiments/command_line.h"
+#include "geometry/mesh_io.h"
+#include "sequence/sequence.h"
+
+namespace vitruvia {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr int kImportedFrames = 4;
+
+class MeshImport : public testing::Test {
+ protected:
+  MeshImport() {
+    Json scene = ReadJsonFile(files_ / "scene.json");
+    scene["frames"] = kImportedFrames;
+    files_.Write("scene.json", scene);
+    EXPECT_EQ(
+        CallVitruvia({"synth", files_.File("scene.json"), "-o", files_.File("original")}).code, 0);
+    original_.emplace(files_ / "original");
+    fs::create_directory(files_ / "meshes");
+    config_ = {{"meshes", "meshes"},
+               {"subject", "original/subject"},
+               {"rest", "rest.ply"},
+               {"frame", "camera"},
+               {"view", {{"camera", scene.at("view").at("camera")}}},
+               {"fps", scene.at("fps")}};
+    WriteMesh(files_ / "rest.ply", original_->true_rest_mesh());
+  }
+
+  // One file for each frame, its vertices as `change` makes them of the true ones.
+  void WriteFrames(const std::string& extension,
+                   const std::function<Vector3f(const Vector3f&)>& change) const {
+    for (int i = 0; i < kImportedFrames; ++i) {
+      TriangleMesh mesh{original_->ReadTrueVertices(i), original_->true_rest_mesh().triangles};
+      for (Vector3f& v : mesh.vertices) v = change(v);
+      WriteMesh(files_ / fmt::format("meshes/{:03}{}", i, extension), mesh);
+    }
+  }
+
+  CallResult Import() const {
+    files_.Write("import.json", config_);
+    return CallVitruvia(
+        {"import", "meshes", files_.File("import.json"), "-o", files_.File("imported")});
+  }
+
+  void ExpectImported(double within_m) const {
+    const CallResult call = Import();
+    ASSERT_EQ(call.code, 0) << call.error;
+    VerifySequence(files_ / "imported");
+    const SequenceReader imported(files_ / "imported");
+    ASSERT_EQ(imported.info().frames, kImportedFrames);
+    EXPECT_EQ(imported.info().joints, original_->info().joints);
+    for (int i = 0; i < kImportedFrames; ++i) ExpectFrame(imported, i, within_m);
+  }
+
+  void ExpectFrame(const SequenceReader& imported, int i, double within_m) const {
+    const std::vector<Vector3f> vertices = imported.ReadTrueVertices(i);
+    const std::vector<Vector3f> expected = original_->ReadTrueVertices(i);
+    ASSERT_EQ(vertices.size(), expected.size());
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+      ASSERT_NEAR((vertices[v] - expected[v]).norm(), 0.0, within_m);
+    const JointTruth joints = imported.true_joints(i);
+    for (std::size_t j = 0; j < joints.positions.size(); ++j) {
+      EXPECT_NEAR((joints.positions[j] - original_->true_joints(i).positions[j]).norm(), 0.0, 0.01)
+          << imported.info().joints[j];
+    }
+    EXPECT_EQ(joints.visible, original_->true_joints(i).visible);
+    ExpectDepth(imported.ReadDepth(i), original_->ReadDepth(i));
+  }
+
+  // Two renderers: they may differ on a silhouette, and by the last millimetre elsewhere.
+  static void ExpectDepth(const DepthImage& imported, const DepthImage& original) {
+    int seen = 0, differ = 0;
+    for (std::size_t p = 0; p < original.pixels().size(); ++p) {
+      if (original.pixels()[p] == 0.0f) continue;
+      ++seen;
+      differ += std::abs(imported.pixels()[p] - original.pixels()[p]) > 0.0021f ? 1 : 0;
+    }
+    EXPECT_GT(seen, 1000);
+    EXPECT_LT(differ, seen / 50);
+  }
+
+  SmallExperiment files_;
+  std::optional<SequenceReader> original_;
+  Json config_;
+};
+
+TEST_F(MeshImport, ObjFilesOfTheCameraFrameGiveTheSameSequence) {
+  WriteFrames(".obj", [](const Vector3f& v) { return v; });
+  ExpectImported(1e-5);
+}
+
+TEST_F(MeshImport, PlyFilesOfTheSubjectFrameInMillimetresGiveTheSameSequence) {
+  const auto scene = ReadSettingsFile<SceneSettings>(files_ / "scene.json");
+  const Rigidf subject_from_camera = Inverse(CameraFromSubject(scene.view)).Cast<float>();
+  WriteFrames(".ply",
+              [&](const Vector3f& v) -> Vector3f { return 1000.0f * (subject_from_camera * v); });
+  TriangleMesh rest = original_->true_rest_mesh();
+  for (Vector3f& v : rest.vertices) v *= 1000.0f;
+  WriteMesh(files_ / "rest.ply", rest);
+  config_["frame"] = "subject";
+  config_["unit_m"] = 0.001;
+  config_["view"] = WriteSettings(scene.view);
+  ExpectImported(1e-5);
+}
+
+TEST_F(MeshImport, DamagedAndForeignMeshesAreNamedAndNothingIsWritten) {
+  const auto refused = [this](ExitCode code, const std::string& words) {
+    const CallResult call = Import();
+    EXPECT_EQ(call.code, static_cast<int>(code));
+    EXPECT_THAT(call.error, HasSubstr(words));
+    EXPECT_FALSE(fs::exists(files_ / "imported"));
+  };
+  refused(ExitCode::kBadData, "expected a folder of .obj, .ply or .off files, found none");
+  WriteFrames(".obj", [](const Vector3f& v) { return v; });
+  config_["unit_m"] = -1;
+  refused(ExitCode::kBadConfiguration, "import.json: unit_m: expected a number in");
+  config_["unit_m"] = 1;
+  config_["frame"] = "world";
+  refused(ExitCode::kBadConfiguration, "import.json: frame: expected one of");
+  config_["frame"] = "subject";
+  refused(ExitCode::kBadData, "000.obj: a vertex is");
+  config_["frame"] = "camera";
+  TriangleMesh other{original_->ReadTrueVertices(2), original_->true_rest_mesh().triangles};
+  std::swap(other.triangles[0], other.triangles[1]);
+  WriteMesh(files_ / "meshes/002.obj", other);
+  refused(ExitCode::kBadData, "(other triangles)");
+  WriteWholeFile(files_ / "meshes/002.obj", "v 1 2\nf 1 2 3\n");
+  refused(ExitCode::kBadData, "002.obj");
+  ExpectRefusal({"import"}, ExitCode::kBadConfiguration, {"subcommand"});
+}
+
+}  // namespace
+}  // namespace vitruvia

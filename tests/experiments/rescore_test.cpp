@@ -1,0 +1,87 @@
+// Metrics computed again from what runs left behind.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/files.h"
+#include "experiments/command_line.h"
+
+namespace vitruvia {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class Rescore : public testing::Test {
+ protected:
+  Rescore() {
+    EXPECT_EQ(CallVitruvia({"run", files_.File("experiment.json"), "-o", out_.string()}).code, 0);
+    const Json summary = ReadJsonFile(out_ / "summary.json");
+    run_ = out_ / summary.at("rows").at(0).at("run_id").get<std::string>();
+  }
+
+  Json Record() const {
+    Json record = ReadJsonFile(run_ / "record.json");
+    record.erase("provenance");
+    return record;
+  }
+
+  SmallExperiment files_;
+  fs::path out_ = files_ / "out", run_;
+};
+
+TEST_F(Rescore, GivesTheSameNumbersWithoutTracking) {
+  const Json before = Record();
+  const std::string summary = ReadWholeFile(out_ / "summary.json");
+  for (const char* series : {"l2_mean_m", "l2_median_m", "l2_p95_m", "l2_p99_m", "l2_max_m"}) {
+    EXPECT_EQ(before.at("frames").at(series).size(), 12u) << series;
+  }
+  const CallResult call = CallVitruvia({"rescore", out_.string()});
+  ASSERT_EQ(call.code, 0) << call.error;
+  EXPECT_THAT(call.out, HasSubstr("1 runs scored again, 0 changed"));
+  EXPECT_EQ(Record(), before);
+  EXPECT_EQ(ReadWholeFile(out_ / "summary.json"), summary);
+  const Json provenance = ReadJsonFile(run_ / "record.json").at("provenance");
+  EXPECT_EQ(provenance.at("rescored_by").at("build_id"), provenance.at("build_id"));
+}
+
+TEST_F(Rescore, RepairsARecordWhoseNumbersAreWrong) {
+  const Json before = Record();
+  Json record = ReadJsonFile(run_ / "record.json");
+  record["summary"]["l2_mean_m"] = 7.0;
+  record["frames"]["l2_mean_m"][3] = 7.0;
+  files_.Write(fs::relative(run_ / "record.json", files_.path()), record);
+  const CallResult call = CallVitruvia({"rescore", out_.string(), "--only", "default.*"});
+  EXPECT_THAT(call.out, HasSubstr("1 runs scored again, 1 changed"));
+  EXPECT_EQ(Record(), before);
+}
+
+TEST_F(Rescore, WhatIsMissingOrAnotherIsTold) {
+  ExpectRefusal({"rescore", files_.File("nowhere")}, ExitCode::kBadData, {"experiment.json"});
+  ExpectRefusal({"rescore", out_.string(), "--only", "x"}, ExitCode::kBadData,
+                {"holds no run to score again"});
+  const Json record = ReadJsonFile(run_ / "record.json");
+  const std::string sequence = record.at("sequence_folder");
+  const fs::path joints = out_ / sequence / "truth" / "joints.json";
+  const std::string text = ReadWholeFile(joints);
+  WriteWholeFile(joints, text + " ");
+  ExpectRefusal({"rescore", out_.string()}, ExitCode::kBadData,
+                {"is another sequence than the one that was tracked: expected hash"});
+  fs::remove(run_ / "estimate" / "vertices.bin");
+  WriteWholeFile(joints, text);
+  ExpectRefusal({"rescore", out_.string()}, ExitCode::kBadData, {"vertices.bin"});
+}
+
+TEST_F(Rescore, ExportWritesMeshesAndRefusesFramesThatAreNotThere) {
+  const CallResult call = CallVitruvia({"export", out_.string(), "--frames", "0", "11"});
+  ASSERT_EQ(call.code, 0) << call.error;
+  EXPECT_THAT(call.out, HasSubstr("meshes/estimate.pvd: 2 frames"));
+  for (const char* file : {"estimate_000000.vtp", "truth_000011.vtp", "truth.pvd"})
+    EXPECT_TRUE(fs::is_regular_file(run_ / "meshes" / file)) << file;
+  ExpectRefusal({"export", out_.string(), "--frames", "12"}, ExitCode::kBadData,
+                {"there is no frame 12: expected 0 … 11"});
+  ExpectRefusal({"export", out_.string(), "--only", "x*"}, ExitCode::kBadData,
+                {"holds no run with an estimate to export that matches x*"});
+}
+
+}  // namespace
+}  // namespace vitruvia
