@@ -21,7 +21,7 @@ struct CompareArguments {
   std::vector<std::string> metrics;
 };
 
-std::string Difference(const VariantComparison& row) {
+std::string DifferenceText(const VariantComparison& row) {
   const Interval& interval = row.comparison.interval;
   const std::string mean = PrintedSigned(row.comparison.difference.mean, row.metric);
   if (std::isinf(interval.low)) return mean;
@@ -38,7 +38,7 @@ void PrintTable(const std::vector<VariantComparison>& rows) {
     }
     metric = row.metric.key;
     fmt::print("  {:<40} {:>12}  {:>34} {:>9}  {:>3} pairs  {}{}\n", row.other,
-               Printed(row.other_spread.mean, row.metric), Difference(row), RelativeText(row),
+               Printed(row.other_spread.mean, row.metric), DifferenceText(row), RelativeText(row),
                row.comparison.difference.count, VerdictText(row),
                row.unpaired == 0 ? "" : fmt::format("; {} runs without a partner", row.unpaired));
   }

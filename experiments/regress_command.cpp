@@ -71,7 +71,7 @@ void Renew(const RegressArguments& a, const GatePlaces& places, const MeasuredRu
     throw Error(ExitCode::kNothingMeasured,
                 fmt::format("{}: not renewed: nothing measured", places.baseline.string()));
   }
-  Baseline baseline;
+  GateBaseline baseline;
   if (fs::exists(places.baseline)) baseline.renewals = ReadBaseline(places.baseline).renewals;
   baseline.date = NowUtc();
   baseline.commit = GetBuildInfo().commit;
@@ -83,8 +83,8 @@ void Renew(const RegressArguments& a, const GatePlaces& places, const MeasuredRu
 }
 
 // Of a selection, so that what was not asked for is not missed.
-Baseline SelectedBaseline(const GatePlaces& places, const std::string& only) {
-  Baseline baseline = ReadBaseline(places.baseline);
+GateBaseline SelectedBaseline(const GatePlaces& places, const std::string& only) {
+  GateBaseline baseline = ReadBaseline(places.baseline);
   std::erase_if(baseline.runs, [&](const GatedRun& run) {
     return run.experiment.find(only) == std::string::npos;
   });
@@ -105,7 +105,7 @@ void Regress(const RegressArguments& a) {
   const auto settings = ReadSettingsFile<RegressSettings>(a.config);
   const GatePlaces places = PlacesOf(a);
   const std::string commit = GetBuildInfo().commit;
-  const Baseline baseline = a.update ? Baseline() : SelectedBaseline(places, a.only);
+  const GateBaseline baseline = a.update ? GateBaseline() : SelectedBaseline(places, a.only);
   std::vector<HistoryEntry> history = ReadHistory(places.history);
   MakeFolder(places.output);
   const MeasuredRuns measured = Measured(a, settings, places);

@@ -29,8 +29,8 @@ std::string LinkTo(const IndexedExperiment& indexed, const std::string& text) {
   return fmt::format("<a href=\"{}\">{}</a>", Escaped(indexed.link), Escaped(text));
 }
 
-std::string TableHead(const std::vector<std::string>& columns) {
-  std::string html = "<div class=\"scroll\"><table class=\"sortable\"><thead><tr>";
+std::string TableHead(const char* classes, const std::vector<std::string>& columns) {
+  std::string html = fmt::format("<div class=\"scroll\"><table class=\"{}\"><thead><tr>", classes);
   for (const std::string& column : columns)
     html += fmt::format("<th><button type=\"button\">{}</button></th>", Escaped(column));
   return html + "</tr></thead><tbody>\n";
@@ -79,15 +79,16 @@ std::string VerdictOfAll(const OursInAll& ours, const Expectation& e) {
 std::string PaperRow(const IndexedExperiment& indexed, const Expectation& e) {
   const MetricName metric = NameOfMetric(e.metric);
   const OursInAll ours = OursOf(indexed.experiment, e);
-  const auto number_cell = [&](const std::string& text, double value) {
-    return fmt::format("<td class=\"n\"{}>{}</td>",
+  const auto number_cell = [&](const char* label, const std::string& text, double value) {
+    return fmt::format("<td class=\"n\" data-label=\"{}\"{}>{}</td>", label,
                        std::isnan(value) ? "" : fmt::format(" data-value=\"{}\"", value), text);
   };
   return "<tr>" + TextCell(Escaped(e.source), e.source) +
          TextCell(Escaped(Titled(metric)), Titled(metric)) +
-         number_cell(std::isnan(e.paper) ? "–" : Printed(e.paper, metric), e.paper) +
-         number_cell(OursText(ours, metric), ours.most) +
-         number_cell(std::isnan(e.at_most) ? "–" : "≤ " + Printed(e.at_most, metric), e.at_most) +
+         number_cell("published", std::isnan(e.paper) ? "–" : Printed(e.paper, metric), e.paper) +
+         number_cell("ours", OursText(ours, metric), ours.most) +
+         number_cell("target", std::isnan(e.at_most) ? "–" : "≤ " + Printed(e.at_most, metric),
+                     e.at_most) +
          VerdictOfAll(ours, e) +
          TextCell(LinkTo(indexed, indexed.experiment.record.name), indexed.experiment.record.name) +
          fmt::format("<td class=\"soft\">{}</td></tr>\n", Escaped(e.remark));
@@ -102,8 +103,8 @@ std::string PaperSectionOfAll(const IndexContent& content) {
   if (rows.empty()) return "";
   return "<section id=\"papers\"><h2>The papers’ figures and tables</h2>\n<p>Published value, ours "
          "over all runs of the experiment, the target and the verdict.</p>" +
-         TableHead({"figure or table", "number", "published", "ours", "target", "verdict",
-                    "experiment", "how the work differs"}) +
+         TableHead("sortable papers", {"figure or table", "number", "published", "ours", "target",
+                                       "verdict", "experiment", "how the work differs"}) +
          rows + "</tbody></table></div></section>\n";
 }
 
@@ -166,7 +167,7 @@ std::string RunSectionOfAll(const IndexContent& content) {
   std::string html =
       "<section id=\"runs\"><h2>All runs</h2><p class=\"soft\">A click on a column’s name sorts by "
       "it.</p>" +
-      TableHead(columns);
+      TableHead("sortable", columns);
   for (const IndexedExperiment& indexed : content.experiments) {
     for (const ReportedRun& run : indexed.experiment.runs) html += RunRow(indexed, run);
   }

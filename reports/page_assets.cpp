@@ -86,7 +86,14 @@ dd { margin: 0; overflow-wrap: anywhere; }
   .compare tr.group { background: var(--band); }
   .compare .problem { grid-column: span 2; }
   .compare td.verdict { grid-column: 1 / -1; }
-  .compare td[data-label]::before { content: attr(data-label); display: block; color: var(--soft);
+  .papers, .papers tbody { display: block; }
+  .papers thead { display: none; }
+  .papers tr { display: grid; grid-template-columns: repeat(3, minmax(0, 1fr));
+               border-bottom: 1px solid var(--line); padding: .5rem 0; }
+  .papers td { grid-column: 1 / -1; border: 0; padding: .05rem .2rem; text-align: left; }
+  .papers td:first-child { font-weight: 600; }
+  .papers td[data-label] { grid-column: auto; white-space: normal; }
+  .papers td[data-label]::before, .compare td[data-label]::before { content: attr(data-label); display: block; color: var(--soft);
                                     font-size: .82em; }
 }
 @media print {

@@ -33,13 +33,13 @@ void WriteJson(const fs::path& file, const nlohmann::json& json) {
 
 }  // namespace
 
-const GatedRun* Baseline::Find(const std::string& run_name) const {
+const GatedRun* GateBaseline::Find(const std::string& run_name) const {
   const auto found = std::find_if(runs.begin(), runs.end(),
                                   [&](const GatedRun& run) { return run.name() == run_name; });
   return found == runs.end() ? nullptr : &*found;
 }
 
-Baseline ReadBaseline(const fs::path& file) {
+GateBaseline ReadBaseline(const fs::path& file) {
   if (!fs::exists(file)) {
     throw ConfigError(
         fmt::format("{}: there is no baseline; --update --reason TEXT takes one", file.string()));
@@ -50,7 +50,7 @@ Baseline ReadBaseline(const fs::path& file) {
           node.At("renewals").List(ParseRenewal), node.At("runs").List(ParseGatedRun)};
 }
 
-void WriteBaseline(const fs::path& file, const Baseline& baseline) {
+void WriteBaseline(const fs::path& file, const GateBaseline& baseline) {
   nlohmann::json renewals = nlohmann::json::array();
   for (const Renewal& r : baseline.renewals)
     renewals.push_back({{"date", r.date}, {"commit", r.commit}, {"reason", r.reason}});

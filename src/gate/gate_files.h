@@ -13,7 +13,7 @@ struct Renewal {
   std::string date, commit, reason;
 };
 
-struct Baseline {
+struct GateBaseline {
   std::string date, commit, cpu;  // of the last renewal
   std::vector<Renewal> renewals;  // all of them, the first one first
   std::vector<GatedRun> runs;
@@ -22,8 +22,8 @@ struct Baseline {
 };
 
 // ConfigError if the file is missing, saying how a baseline is taken; DataError if it is damaged.
-Baseline ReadBaseline(const std::filesystem::path& file);
-void WriteBaseline(const std::filesystem::path& file, const Baseline& baseline);
+GateBaseline ReadBaseline(const std::filesystem::path& file);
+void WriteBaseline(const std::filesystem::path& file, const GateBaseline& baseline);
 
 // What the gate found on one occasion.
 struct HistoryEntry {

@@ -17,7 +17,7 @@ std::string ChangeInPercent(const Finding& finding) {
 }
 
 const char* UnitOf(const Finding& finding) {
-  if (finding.kind == Kind::kSpeed) return " × calibration";
+  if (finding.kind == NumberKind::kSpeed) return " × calibration";
   if (finding.metric.ends_with("_m")) return " m";
   if (finding.metric.ends_with("_deg")) return " °";
   if (finding.metric.ends_with("_kg")) return " kg";
@@ -79,7 +79,7 @@ std::string JunitCase(const std::string& run, const std::string& kind, const cha
                      XmlEscaped(message));
 }
 
-std::string RegressionLines(const Judgement& judgement, const std::string& run, Kind kind) {
+std::string RegressionLines(const Judgement& judgement, const std::string& run, NumberKind kind) {
   std::string lines;
   for (const Finding* f : judgement.Regressions(kind)) {
     if (f->run != run) continue;
@@ -131,9 +131,9 @@ std::string Headline(const Judgement& judgement) {
                  : fmt::format("{} of the baseline's runs and numbers not measured",
                                judgement.unmeasured.size());
     case ExitCode::kAccuracyRegressed:
-      return "accuracy regressed: " + Runs(judgement.Regressions(Kind::kAccuracy));
+      return "accuracy regressed: " + Runs(judgement.Regressions(NumberKind::kAccuracy));
     case ExitCode::kSpeedRegressed:
-      return "speed regressed: " + Runs(judgement.Regressions(Kind::kSpeed));
+      return "speed regressed: " + Runs(judgement.Regressions(NumberKind::kSpeed));
     default:
       return "ok: " + Runs(judgement.OfChange(Change::kWithin)) + " within tolerance";
   }
@@ -164,7 +164,7 @@ std::string ToJunit(const GateOccasion& occasion, const Judgement& judgement) {
   std::string cases;
   int failures = 0, errors = 0, count = 0;
   for (const GatedRun& run : occasion.measured.runs) {
-    for (const Kind kind : {Kind::kAccuracy, Kind::kSpeed}) {
+    for (const NumberKind kind : {NumberKind::kAccuracy, NumberKind::kSpeed}) {
       const std::string lines = RegressionLines(judgement, run.name(), kind);
       cases += JunitCase(run.name(), Name(kind), "failure", lines);
       failures += lines.empty() ? 0 : 1;
@@ -201,8 +201,8 @@ std::string ToMarkdown(const GateOccasion& occasion, const Judgement& judgement)
     text += "\n";
   }
   text += NameList("Not measured", judgement.unmeasured);
-  text += FindingTable("Accuracy regressed", judgement.Regressions(Kind::kAccuracy));
-  text += FindingTable("Speed regressed", judgement.Regressions(Kind::kSpeed));
+  text += FindingTable("Accuracy regressed", judgement.Regressions(NumberKind::kAccuracy));
+  text += FindingTable("Speed regressed", judgement.Regressions(NumberKind::kSpeed));
   text += FindingTable("Improved beyond tolerance", judgement.OfChange(Change::kImproved));
   text += NameList("Not in the baseline", judgement.unknown);
   return text + fmt::format("{} numbers are within tolerance.\n",

@@ -11,7 +11,7 @@ namespace vitruvia {
 struct GateOccasion {
   std::string name, date, commit, cpu;
   GateTolerances tolerances;
-  Baseline baseline;
+  GateBaseline baseline;
   MeasuredRuns measured;
 };
 

@@ -35,8 +35,8 @@ Change ChangeOf(double is, const Limits& limits) {
   return Change::kWithin;
 }
 
-const std::map<std::string, double>& NumbersOf(const GatedRun& run, Kind kind) {
-  return kind == Kind::kAccuracy ? run.accuracy : run.speed;
+const std::map<std::string, double>& NumbersOf(const GatedRun& run, NumberKind kind) {
+  return kind == NumberKind::kAccuracy ? run.accuracy : run.speed;
 }
 
 // The value of a finding on an earlier occasion; NaN if it was not measured then.
@@ -84,17 +84,18 @@ bool HasFailed(const MeasuredRuns& measured, const std::string& run_name) {
 
 class Judging {
  public:
-  Judging(const Baseline& baseline, const GateTolerances& tolerances,
+  Judging(const GateBaseline& baseline, const GateTolerances& tolerances,
           const std::vector<HistoryEntry>& history, const std::string& commit)
       : baseline_(baseline), tolerances_(tolerances), history_(history), commit_(commit) {}
 
   void Compare(const GatedRun& was, const GatedRun& is) {
     for (const auto& [metric, value] : was.accuracy)
-      Compare(was, is, Kind::kAccuracy, metric,
+      Compare(was, is, NumberKind::kAccuracy, metric,
               AccuracyLimits(metric, value, tolerances_.accuracy));
     for (const auto& [name, value] : was.speed) {
       const double tolerance = SpeedTolerance(was, name, value, tolerances_);
-      if (tolerance > 0.0) Compare(was, is, Kind::kSpeed, name, SpeedLimits(value, tolerance));
+      if (tolerance > 0.0)
+        Compare(was, is, NumberKind::kSpeed, name, SpeedLimits(value, tolerance));
     }
     if (!is.unsteady.empty()) {
       judgement_.failures[is.name()] =
@@ -105,7 +106,7 @@ class Judging {
   Judgement& judgement() { return judgement_; }
 
  private:
-  void Compare(const GatedRun& was, const GatedRun& is, Kind kind, const std::string& metric,
+  void Compare(const GatedRun& was, const GatedRun& is, NumberKind kind, const std::string& metric,
                const Limits& limits) {
     const auto found = NumbersOf(is, kind).find(metric);
     if (found == NumbersOf(is, kind).end()) {
@@ -120,7 +121,7 @@ class Judging {
     judgement_.findings.push_back(std::move(finding));
   }
 
-  const Baseline& baseline_;
+  const GateBaseline& baseline_;
   const GateTolerances& tolerances_;
   const std::vector<HistoryEntry>& history_;
   const std::string& commit_;
@@ -154,7 +155,7 @@ void GateTolerances::Describe(Fields& f) {
             .origin = Origin::kGuessed});
 }
 
-const char* Name(Kind kind) { return kind == Kind::kAccuracy ? "accuracy" : "speed"; }
+const char* Name(NumberKind kind) { return kind == NumberKind::kAccuracy ? "accuracy" : "speed"; }
 
 const char* Name(Change change) {
   switch (change) {
@@ -176,7 +177,7 @@ std::vector<const Finding*> Judgement::OfChange(Change change) const {
   return chosen;
 }
 
-std::vector<const Finding*> Judgement::Regressions(Kind kind) const {
+std::vector<const Finding*> Judgement::Regressions(NumberKind kind) const {
   std::vector<const Finding*> chosen = OfChange(Change::kRegressed);
   std::erase_if(chosen, [kind](const Finding* finding) { return finding->kind != kind; });
   return chosen;
@@ -185,12 +186,12 @@ std::vector<const Finding*> Judgement::Regressions(Kind kind) const {
 ExitCode Judgement::Code() const {
   if (!failures.empty()) return ExitCode::kFailedRun;
   if (findings.empty() || !unmeasured.empty()) return ExitCode::kNothingMeasured;
-  if (!Regressions(Kind::kAccuracy).empty()) return ExitCode::kAccuracyRegressed;
-  if (!Regressions(Kind::kSpeed).empty()) return ExitCode::kSpeedRegressed;
+  if (!Regressions(NumberKind::kAccuracy).empty()) return ExitCode::kAccuracyRegressed;
+  if (!Regressions(NumberKind::kSpeed).empty()) return ExitCode::kSpeedRegressed;
   return ExitCode::kSuccess;
 }
 
-Judgement Judge(const Baseline& baseline, const MeasuredRuns& measured,
+Judgement Judge(const GateBaseline& baseline, const MeasuredRuns& measured,
                 const GateTolerances& tolerances, const std::vector<HistoryEntry>& history,
                 const std::string& commit) {
   Judging judging(baseline, tolerances, history, commit);

@@ -20,8 +20,8 @@ struct GateTolerances {
   void Describe(Fields& fields);
 };
 
-enum class Kind { kAccuracy, kSpeed };
-const char* Name(Kind kind);
+enum class NumberKind { kAccuracy, kSpeed };
+const char* Name(NumberKind kind);
 
 enum class Change { kWithin, kImproved, kRegressed };
 const char* Name(Change change);
@@ -34,7 +34,7 @@ struct Blame {
 
 struct Finding {
   std::string run;  // GatedRun::name()
-  Kind kind = Kind::kAccuracy;
+  NumberKind kind = NumberKind::kAccuracy;
   std::string metric;
   double was = 0.0, is = 0.0;
   double limit = 0.0;  // the worst value that would have passed
@@ -49,7 +49,7 @@ struct Judgement {
   std::vector<std::string> unmeasured;          // runs or numbers of the baseline that are no more
 
   std::vector<const Finding*> OfChange(Change change) const;
-  std::vector<const Finding*> Regressions(Kind kind) const;
+  std::vector<const Finding*> Regressions(NumberKind kind) const;
   // The code of the worst that happened: a failed run, then nothing measured (or less than the
   // baseline holds), then accuracy, then speed.
   ExitCode Code() const;
@@ -61,7 +61,7 @@ struct MeasuredRuns {
 };
 
 // The history is what was found before, oldest first; `commit` is that of the measured build.
-Judgement Judge(const Baseline& baseline, const MeasuredRuns& measured,
+Judgement Judge(const GateBaseline& baseline, const MeasuredRuns& measured,
                 const GateTolerances& tolerances, const std::vector<HistoryEntry>& history,
                 const std::string& commit);
 

@@ -86,7 +86,9 @@ Json MethodFileSchema() {
   for (const MethodInfo& method : Methods()) {
     names.push_back(method.name);
     schema["allOf"].push_back(
-        {{"if", {{"required", {"method"}}, {"properties", {{"method", {{"const", method.name}}}}}}},
+        {{"if",
+          {{"required", Json::array({"method"})},
+           {"properties", {{"method", {{"const", method.name}}}}}}},
          {"then", {{"properties", {{"settings", SettingsSchema(method.visit_settings)}}}}}});
   }
   schema["properties"]["method"]["enum"] = names;

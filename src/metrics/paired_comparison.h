@@ -31,7 +31,8 @@ struct Interval {
 // Of the mean of what the values were drawn from: the percentile bootstrap, its percentiles moved
 // outwards so that it is as wide as Student's interval where values are normal (Hesterberg 2015,
 // "What Teachers Should Know About the Bootstrap", the expanded percentile interval). Without that
-// it is too narrow for the five or ten values that an experiment has. One value: [−∞, ∞].
+// it is too narrow for the six or ten values that an experiment has; of six normal ones it still
+// holds the mean in 93 % of all cases, where it says 95, of nine in 94 to 95. One value: [−∞, ∞].
 // std::invalid_argument on an empty sample or settings out of range.
 Interval BootstrapMeanInterval(std::span<const double> values, const BootstrapSettings& settings);
 

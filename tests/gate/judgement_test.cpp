@@ -36,7 +36,7 @@ RunRecord Record(double error_m, double frame_ms, double calibration_ms) {
 
 GatedRun Gated(const RunRecord& record) { return MakeGatedRun("nightly", std::vector{record}); }
 
-Baseline BaselineOf(const GatedRun& run) { return {"2026-01-01", "base000", "cpu", {}, {run}}; }
+GateBaseline BaselineOf(const GatedRun& run) { return {"2026-01-01", "base000", "cpu", {}, {run}}; }
 
 Judgement JudgeOf(const GatedRun& was, const GatedRun& is,
                   const std::vector<HistoryEntry>& history = {}) {
@@ -70,7 +70,7 @@ TEST(Judge, AccuracyIsHeldTightly) {
   EXPECT_EQ(JudgeOf(was, Gated(Record(0.010009, 6.0, 10.0))).Code(), ExitCode::kSuccess);
   const Judgement worse = JudgeOf(was, Gated(Record(0.010011, 6.0, 10.0)));
   EXPECT_EQ(worse.Code(), ExitCode::kAccuracyRegressed);
-  const auto regressions = worse.Regressions(Kind::kAccuracy);
+  const auto regressions = worse.Regressions(NumberKind::kAccuracy);
   ASSERT_EQ(regressions.size(), 1u);
   EXPECT_EQ(regressions[0]->metric, "l2_mean_m");
   EXPECT_EQ(regressions[0]->was, 0.01);
@@ -100,7 +100,7 @@ TEST(Judge, AStepSlowedByThirtyPercentIsASpeedRegression) {
   record.summary["frame_ms_median"] = 6.0 + 0.3 * 3.0;  // the frame itself stays within tolerance
   const Judgement judgement = JudgeOf(was, Gated(record));
   EXPECT_EQ(judgement.Code(), ExitCode::kSpeedRegressed);
-  const auto regressions = judgement.Regressions(Kind::kSpeed);
+  const auto regressions = judgement.Regressions(NumberKind::kSpeed);
   ASSERT_EQ(regressions.size(), 1u);
   EXPECT_EQ(regressions[0]->metric, kRender);
   // The short step may: it is mostly noise.
@@ -160,7 +160,7 @@ TEST(Judge, NamesTheFirstCommitThatCouldBeToBlame) {
   const GatedRun was = Gated(Record(0.01, 6.0, 10.0));
   const GatedRun is = Gated(Record(0.02, 6.0, 10.0));
   const auto blame = [&](const std::vector<HistoryEntry>& history) {
-    return JudgeOf(was, is, history).Regressions(Kind::kAccuracy).at(0)->blame;
+    return JudgeOf(was, is, history).Regressions(NumberKind::kAccuracy).at(0)->blame;
   };
   EXPECT_EQ(blame({}).last_good, "base000");
   EXPECT_EQ(blame({}).first_bad, "now0000");
@@ -172,10 +172,10 @@ TEST(Judge, NamesTheFirstCommitThatCouldBeToBlame) {
 
 TEST(GateFiles, AreReadAsWritten) {
   const TemporaryFolder folder;
-  Baseline baseline = BaselineOf(Gated(Record(0.01, 6.0, 10.0)));
+  GateBaseline baseline = BaselineOf(Gated(Record(0.01, 6.0, 10.0)));
   baseline.renewals = {{"2026-01-01", "base000", "the first"}};
   WriteBaseline(folder / "base/nightly.json", baseline);
-  const Baseline again = ReadBaseline(folder / "base/nightly.json");
+  const GateBaseline again = ReadBaseline(folder / "base/nightly.json");
   EXPECT_EQ(again.commit, "base000");
   EXPECT_EQ(again.renewals.at(0).reason, "the first");
   ASSERT_NE(again.Find(kWalk), nullptr);
@@ -191,7 +191,7 @@ TEST(GateFiles, AreReadAsWritten) {
 }
 
 TEST(GateReports, NameRunMetricWasIsToleranceAndBlame) {
-  const Baseline baseline = BaselineOf(Gated(Record(0.01, 6.0, 10.0)));
+  const GateBaseline baseline = BaselineOf(Gated(Record(0.01, 6.0, 10.0)));
   const MeasuredRuns measured{{Gated(Record(0.02, 12.0, 10.0))}, {{"nightly: x<y>", "crashed"}}};
   const Judgement judgement = Judge(baseline, measured, {}, {Entry("ccc", 0.01)}, "now0000");
   const GateOccasion occasion{"Nightly", "2026-01-03", "now0000", "cpu", {}, baseline, measured};
