@@ -8,7 +8,6 @@
 #include "experiments/scan.h"
 #include "experiments/shape_study.h"
 #include "experiments/weight_study.h"
-#include "methods/dynamic/skeleton_file.h"
 #include "synth/motions/keyframes_file.h"
 
 namespace vitruvia {
@@ -28,7 +27,7 @@ const std::vector<ConfigKind>& ConfigKinds() {
         {"learning", "what is learnt from a population", VisitDefaults<LearningSettings>, nullptr},
         {"fit", "how a shape is fitted to a scan", VisitDefaults<IntrinsicShapeSettings>, nullptr},
         {"subject", "a subject that is scanned and fitted", VisitSubjectFile, nullptr},
-        {"skeleton", "a kinematic skeleton", VisitDefaults<dynamic::SkeletonFile>, nullptr},
+        {"skeleton", "a kinematic skeleton", VisitSkeletonFile, nullptr},
         {"motion", "key frames of a motion", VisitMotionFile, nullptr}};
     for (const MethodInfo& method : Methods()) {
       list.push_back(

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "core/settings_schema.h"
 #include "methods/dynamic/dynamic.h"
+#include "methods/dynamic/skeleton_file.h"
 #include "methods/external/external.h"
 #include "methods/realtime_scape/realtime_scape.h"
 
@@ -79,6 +80,8 @@ const std::vector<MethodInfo>& Methods() {
 }
 
 void VisitMethodFile(Fields& fields) { VisitDefaults<MethodFile>(fields); }
+
+void VisitSkeletonFile(Fields& fields) { VisitDefaults<dynamic::SkeletonFile>(fields); }
 
 Json MethodFileSchema() {
   Json schema = SettingsSchema(VisitMethodFile);

@@ -25,6 +25,8 @@ struct MethodConfig {
 
 // Walks over the fields of a method file; those of a method's settings: MethodInfo.
 void VisitMethodFile(Fields& fields);
+// Walks over the fields of a file of configs/skeletons, which methods read.
+void VisitSkeletonFile(Fields& fields);
 // The JSON Schema of method files: settings are those of the method.
 Json MethodFileSchema();
 

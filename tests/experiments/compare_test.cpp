@@ -9,7 +9,7 @@ using testing::HasSubstr;
 
 class Compare : public testing::Test {
  protected:
-  void Run(const std::string& folder) const {
+  void MakeRun(const std::string& folder) const {
     Json experiment = ReadJsonFile(files_ / "experiment.json");
     experiment["variants"] = {
         {{"name", "all"}}, {{"name", "no_axis"}, {"method", {{"settings", {{"axis_weight", 0}}}}}}};
@@ -22,7 +22,7 @@ class Compare : public testing::Test {
 };
 
 TEST_F(Compare, PrintsATableAndWritesIt) {
-  Run("out");
+  MakeRun("out");
   const CallResult outcome =
       CallVitruvia({"compare", files_.File("out"), "-o", files_.File("tables/variants.json")});
   ASSERT_EQ(outcome.code, static_cast<int>(ExitCode::kSuccess)) << outcome.error;
@@ -38,8 +38,8 @@ TEST_F(Compare, PrintsATableAndWritesIt) {
 }
 
 TEST_F(Compare, TheSameRunsOfTwoFoldersDoNotDiffer) {
-  Run("first");
-  Run("second");
+  MakeRun("first");
+  MakeRun("second");
   const CallResult outcome =
       CallVitruvia({"compare", files_.File("first"), files_.File("second"), "--metric", "l2_mean_m",
                     "-o", files_.File("table.csv")});
@@ -49,7 +49,7 @@ TEST_F(Compare, TheSameRunsOfTwoFoldersDoNotDiffer) {
 }
 
 TEST_F(Compare, BadInputIsNamed) {
-  Run("out");
+  MakeRun("out");
   const auto refused = [&](const std::vector<std::string>& more, ExitCode code,
                            const std::string& words) {
     std::vector<std::string> arguments = {"compare"};

@@ -14,7 +14,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-RunRecord Run(const std::string& variant, const std::string& scene, int seed, double error) {
+RunRecord MakeRun(const std::string& variant, const std::string& scene, int seed, double error) {
   RunRecord run;
   run.variant = variant;
   run.method = "realtime_scape";
@@ -38,9 +38,9 @@ ReportedExperiment NinePairs() {
   for (const std::string scene : {"walk", "kick", "sit"}) {
     for (int seed = 1; seed <= 3; ++seed) {
       const double error = 0.01 * static_cast<double>(scene.size()) + 0.002 * seed;
-      Add(experiment, Run("base", scene, seed, error));
-      Add(experiment, Run("worse", scene, seed, error + 0.001 + 0.0001 * seed));
-      Add(experiment, Run("noisy", scene, seed, error + 0.001 * (seed - 2)));
+      Add(experiment, MakeRun("base", scene, seed, error));
+      Add(experiment, MakeRun("worse", scene, seed, error + 0.001 + 0.0001 * seed));
+      Add(experiment, MakeRun("noisy", scene, seed, error + 0.001 * (seed - 2)));
     }
   }
   return experiment;
@@ -72,7 +72,7 @@ TEST(CompareVariants, SharesAreBetterWhereTheyAreHigher) {
   ReportedExperiment experiment;
   for (int seed = 1; seed <= 6; ++seed) {
     for (const std::string variant : {"a", "b"}) {
-      RunRecord run = Run(variant, "walk", seed, 0.1);
+      RunRecord run = MakeRun(variant, "walk", seed, 0.1);
       run.summary["joints_within_10cm"] = variant == "a" ? 0.5 : 0.6;
       Add(experiment, run);
     }
@@ -111,18 +111,18 @@ TEST(CompareVariants, NamesWhatThereIsNot) {
             "\"frame_ms_median\"?");
   ReportedExperiment one;
   one.folder = "out/one";
-  Add(one, Run("base", "walk", 1, 0.1));
+  Add(one, MakeRun("base", "walk", 1, 0.1));
   EXPECT_EQ(message(one, "", {}),
             "out/one: only one variant has finished runs; expected two at least");
 }
 
 TEST(ContendersOf, AreNamedByWhatTellsThemApart) {
   ReportedExperiment experiment;
-  Add(experiment, Run("default", "walk", 1, 0.1));
-  Add(experiment, Run("default", "walk", 1, 0.1));
+  Add(experiment, MakeRun("default", "walk", 1, 0.1));
+  Add(experiment, MakeRun("default", "walk", 1, 0.1));
   experiment.runs[1].record->method = "dynamic";
   EXPECT_EQ(ContendersOf(experiment)[1].name, "dynamic");
-  Add(experiment, Run("other", "walk", 1, 0.1));
+  Add(experiment, MakeRun("other", "walk", 1, 0.1));
   EXPECT_EQ(ContendersOf(experiment)[2].name, "realtime_scape/other");
 }
 
@@ -147,7 +147,7 @@ TEST(CompareExperiments, PairsTheSameRunsOfTwoFolders) {
   EXPECT_THAT(Verdicts(rows, kCalibratedTime), testing::Contains("out/after: all: no difference"));
   ReportedExperiment elsewhere;
   elsewhere.folder = "out/else";
-  Add(elsewhere, Run("base", "dance", 1, 0.1));
+  Add(elsewhere, MakeRun("base", "dance", 1, 0.1));
   EXPECT_THROW(CompareExperiments(before, elsewhere, {}), ConfigError);
 }
 
@@ -170,7 +170,7 @@ TEST(ComparisonSection, ShowsIntervalsAndVerdicts) {
   EXPECT_THAT(html, HasSubstr("<td class=\"verdict missed\">higher (worse)</td>"));
   EXPECT_THAT(html, HasSubstr("<td class=\"soft\">no difference</td>"));
   ReportedExperiment one;
-  Add(one, Run("base", "walk", 1, 0.1));
+  Add(one, MakeRun("base", "walk", 1, 0.1));
   EXPECT_EQ(ComparisonSection(one), "");
 }
 
@@ -178,7 +178,7 @@ TEST(MakeSpeedFigure, MarksTheFront) {
   ReportedExperiment experiment;
   const auto add = [&](const char* variant, double ms, double error) {
     for (int seed = 1; seed <= 2; ++seed) {
-      RunRecord run = Run(variant, "walk", seed, error + 0.002 * (seed - 1.5));
+      RunRecord run = MakeRun(variant, "walk", seed, error + 0.002 * (seed - 1.5));
       run.frames = {{"frame_ms", {ms - 1.0, ms + 1.0}}};
       Add(experiment, run);
     }
