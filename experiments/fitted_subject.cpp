@@ -3,6 +3,7 @@
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/settings_schema.h"
 #include "experiments/kept_work.h"
 #include "geometry/mesh_io.h"
 
@@ -41,6 +42,8 @@ SubjectRecipe ReadSubjectRecipe(const fs::path& file) {
   const auto recipe = ReadSettingsFile<RecipeFile>(file);
   return {ReadLearningSettings(recipe.learning), ReadScanSettings(recipe.scan), recipe.fit};
 }
+
+void VisitSubjectFile(Fields& fields) { VisitDefaults<RecipeFile>(fields); }
 
 Json ResolvedRecipe(const SubjectRecipe& recipe) {
   return {{"learning", WriteSettings(recipe.learning)},

@@ -19,6 +19,8 @@ struct SubjectRecipe {
 
 // The file names a learning file and a scan file and holds the settings of the fit.
 SubjectRecipe ReadSubjectRecipe(const std::filesystem::path& file);
+// Walks over the fields of such a file.
+void VisitSubjectFile(Fields& fields);
 Json ResolvedRecipe(const SubjectRecipe& recipe);
 
 // The person of a scan: eq. 6, then placed in the subject frame on the tracking mesh, with

@@ -98,7 +98,7 @@ RunRecord CarryOut(const ShapeStudy& study, std::size_t scan_number, int person_
   record.scene = person;
   record.method = kShapeMethod;
   record.config = Resolved(study, scan_number);
-  record.provenance = Provenance();
+  record.provenance = TimedProvenance();
   record.summary = {
       {"run_id", run_id},
       {"variant", record.variant},

@@ -36,7 +36,7 @@ RunRecord CarryOut(const RunPlan& run, const std::string& experiment, const fs::
   record.method = run.method_name;
   record.seed = run.seed;
   record.config = run.resolved;
-  record.provenance = Provenance();
+  record.provenance = TimedProvenance();
   record.sequence_folder = fs::absolute(kept.path()).lexically_relative(fs::absolute(folder));
   record.sequence_hash = sequence.hash();
   record.summary = {{"run_id", run.run_id},

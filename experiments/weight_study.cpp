@@ -86,7 +86,7 @@ RunRecord CarryOut(const WeightStudy& study, int person_number, const std::strin
   record.scene = person;
   record.method = kWeightMethod;
   record.config = {{"learning", WriteSettings(study.learning)}};
-  record.provenance = Provenance();
+  record.provenance = TimedProvenance();
   record.summary = {{"run_id", run_id},
                     {"variant", record.variant},
                     {"scene", person},

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "reports/color_maps.h"
+#include "reports/comparison_section.h"
 #include "reports/html_text.h"
 #include "reports/page_assets.h"
 #include "reports/tables.h"
@@ -24,6 +25,8 @@ std::string VerdictCell(Verdict verdict) {
       return "<td class=\"verdict missed\">✗ missed</td>";
     case Verdict::kNoResult:
       return "<td class=\"verdict none\">no result</td>";
+    case Verdict::kNotComparable:
+      return "<td class=\"verdict soft\">not comparable</td>";
     case Verdict::kNoTarget:
       break;
   }
@@ -53,7 +56,10 @@ std::string ComparisonRows(const Comparison& c) {
   std::string rows = fmt::format(
       "<tbody><tr class=\"group\"><th colspan=\"6\" scope=\"rowgroup\">{} <span class=\"soft\">· "
       "{}</span><small>{}</small></th></tr>\n",
-      Escaped(Titled(c.metric)), Escaped(c.expectation.source), Escaped(c.expectation.remark));
+      Escaped(Titled(c.metric)), Escaped(c.expectation.source),
+      Escaped(c.expectation.not_comparable.empty()
+                  ? c.expectation.remark
+                  : "Not comparable: " + c.expectation.not_comparable));
   for (const ComparedRun& run : c.runs) {
     rows += fmt::format("<tr><td class=\"run\">{}</td><td class=\"n\" data-label=\"paper\">{}</td>",
                         Escaped(run.run_id), c.paper);
@@ -286,6 +292,7 @@ std::string MakePage(const ReportedExperiment& experiment, const std::vector<Dra
       Escaped(experiment.record.title), kPageStyle);
   page += Header(experiment) + "<main>\n";
   page += PaperSection(experiment);
+  page += ComparisonSection(experiment);
   page += PlotSection(experiment, figures);
   page += PictureSection(pictures);
   page += StepSection(experiment);

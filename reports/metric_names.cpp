@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "records/metric_value.h"
+
 namespace vitruvia {
 namespace {
 
@@ -28,6 +30,7 @@ const std::array kKnown = {
     MetricName{"frame_ms_p95", "time per frame, 95th percentile", "ms", 1.0, 1},
     MetricName{"frame_ms_max", "time per frame, maximum", "ms", 1.0, 1},
     MetricName{"iterations_mean", "iterations per frame, mean", "", 1.0, 2},
+    MetricName{kCalibratedTime, "time per frame, median / calibration kernel", "", 1.0, 3},
 };
 
 // "l2_mean_visible_m" reads "l2 mean visible".

@@ -49,6 +49,14 @@ figure.plot svg { display: block; width: 100%; min-width: 540px; max-width: 900p
 .cells figure { margin: 0; }
 .cells img { display: block; width: 100%; height: auto; border: 1px solid var(--line); }
 .cells figcaption { font-size: .78rem; line-height: 1.3; padding-top: .2rem; }
+.cards { display: grid; gap: 1.2rem 1.6rem; grid-template-columns: repeat(auto-fill, minmax(min(100%, 34rem), 1fr)); }
+.card { border-top: 2px solid var(--line); min-width: 0; }
+.card h3 { margin: .6rem 0 .2rem; }
+.card img { display: block; max-width: 100%; height: auto; }
+.card figure.plot svg { min-width: 0; }
+b.met { color: var(--good); }
+b.missed { color: var(--bad); }
+p.problem { color: var(--bad); }
 .bars { display: flex; flex-wrap: wrap; gap: .6rem 2rem; margin: .4rem 0 .6rem; font-size: .85rem; }
 .bar { width: 300px; max-width: 100%; }
 .bar i { display: block; height: 12px; border: 1px solid var(--line); }
@@ -78,14 +86,21 @@ dd { margin: 0; overflow-wrap: anywhere; }
   .compare tr.group { background: var(--band); }
   .compare .problem { grid-column: span 2; }
   .compare td.verdict { grid-column: 1 / -1; }
-  .compare td[data-label]::before { content: attr(data-label); display: block; color: var(--soft);
+  .papers, .papers tbody { display: block; }
+  .papers thead { display: none; }
+  .papers tr { display: grid; grid-template-columns: repeat(3, minmax(0, 1fr));
+               border-bottom: 1px solid var(--line); padding: .5rem 0; }
+  .papers td { grid-column: 1 / -1; border: 0; padding: .05rem .2rem; text-align: left; }
+  .papers td:first-child { font-weight: 600; }
+  .papers td[data-label] { grid-column: auto; white-space: normal; }
+  .papers td[data-label]::before, .compare td[data-label]::before { content: attr(data-label); display: block; color: var(--soft);
                                     font-size: .82em; }
 }
 @media print {
   body { max-width: none; padding: 0; font-size: 10pt; }
   nav { display: none; }
   .scroll { overflow: visible; }
-  figure, .strip, tr { break-inside: avoid; }
+  figure, .strip, .card, tr { break-inside: avoid; }
   figure.plot svg { min-width: 0; }
   .sortable { font-size: 5.5pt; }
   .sortable th, .sortable td { padding: 1pt 1.5pt; white-space: normal; overflow-wrap: anywhere; }

@@ -21,6 +21,8 @@ constexpr double kFailureRow = 9.0;
 constexpr double kHeadroom = 1.06;  // of an axis over its largest value
 constexpr Color kGrid{0xe4, 0xe4, 0xe4}, kAxis{0x44, 0x44, 0x44}, kReferenceInk{0x66, 0x66, 0x66};
 constexpr double kReferenceDash = 5.0;
+constexpr double kPointRadius = 5.5, kRingWidth = 2.2;
+constexpr Color kPaper{0xff, 0xff, 0xff};
 
 // Fonts differ from reader to reader, so a legend's text is taken to be this wide a letter, a
 // little more than it needs.
@@ -72,14 +74,19 @@ double PanelHeight(const Figure& figure) {
   return Rows(figure) > 1 ? kStackedPanelHeight : kPanelHeight;
 }
 
+void DrawPoint(Canvas& canvas, Point at, const Series& series) {
+  canvas.Disc(at, kPointRadius, series.color);
+  if (series.mark == Mark::kRings) canvas.Disc(at, kPointRadius - kRingWidth, kPaper);
+}
+
 void DrawLegend(Canvas& canvas, const std::vector<LegendEntry>& entries) {
   for (const LegendEntry& entry : entries) {
     const double y = kLegendLine * (entry.line + 0.5) + 4.0;
     const double middle = entry.x + 0.5 * (kLegendSample - 6.0);
     if (entry.sample == nullptr) {
       canvas.Cross({middle, y}, 3.5, {kFailureColor, 1.6});
-    } else if (entry.sample->mark == Mark::kPoints) {
-      canvas.Disc({middle, y}, 5.0, entry.sample->color);
+    } else if (entry.sample->mark != Mark::kLine) {
+      DrawPoint(canvas, {middle, y}, *entry.sample);
     } else {
       canvas.Line({entry.x, y}, {entry.x + kLegendSample - 6.0, y},
                   {entry.sample->color, 2.2, entry.sample->dash});
@@ -116,7 +123,7 @@ Axis MakeXAxis(const Panel& panel) {
     range.Add(series.x_reach);
   }
   for (const Reference& reference : panel.x_references) range.Add(reference.value);
-  return MakeAxis(Scale::kLinear, range, panel.x_end);
+  return MakeAxis(panel.x_scale, range, panel.x_end);
 }
 
 Axis MakeYAxis(const Panel& panel) {
@@ -235,7 +242,8 @@ void DrawPoints(Canvas& canvas, const Series& series, const PanelFrame& frame) {
       canvas.Line(at, {end, at.y}, {series.color, 1.6});
       canvas.Line({end, at.y - 5.0}, {end, at.y + 5.0}, {series.color, 1.6});
     }
-    canvas.Disc(at, 5.5, series.color);
+    DrawPoint(canvas, at, series);
+    canvas.Text({at.x + kPointRadius, at.y - kPointRadius - 3.0}, series.label, {.size = 12.0});
   }
 }
 
@@ -250,7 +258,7 @@ void DrawPanel(Canvas& canvas, const Panel& panel, Point top_left, double width,
   int failure_row = 0;
   for (const Series& series : panel.series) {
     if (series.mark == Mark::kLine) DrawLine(canvas, series, frame);
-    if (series.mark == Mark::kPoints) DrawPoints(canvas, series, frame);
+    if (series.mark != Mark::kLine) DrawPoints(canvas, series, frame);
     if (series.failed_x.empty()) continue;
     const double y = frame.top() + kFailureRow * (failure_row++ + 0.5);
     for (const double x : series.failed_x) {

@@ -10,7 +10,7 @@
 
 namespace vitruvia {
 
-enum class Mark { kLine, kPoints };
+enum class Mark { kLine, kPoints, kRings };
 
 struct Series {
   std::string name;
@@ -18,6 +18,7 @@ struct Series {
   double dash = 0.0;  // as Stroke::dash
   Mark mark = Mark::kLine;
   std::vector<double> x, y;      // NaN: no value here, a gap
+  std::string label;             // beside each point
   std::vector<double> x_reach;   // where a bar to the right of each point ends; empty: no bars
   std::vector<double> failed_x;  // crosses along the top
 };
@@ -32,7 +33,7 @@ struct Panel {
   std::string title, x_label, y_label;  // labels name quantity and unit
   std::vector<Series> series;
   std::vector<Reference> y_references, x_references;
-  Scale y_scale = Scale::kLinear;
+  Scale y_scale = Scale::kLinear, x_scale = Scale::kLinear;
   // Fixed ends of linear axes; NaN: from the data.
   double x_end = std::numeric_limits<double>::quiet_NaN();
   double y_end = std::numeric_limits<double>::quiet_NaN();

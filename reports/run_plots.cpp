@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "reports/color_maps.h"
-#include "reports/metric_names.h"
+#include "reports/speed_figure.h"
 
 namespace vitruvia {
 namespace {
@@ -56,14 +56,6 @@ const std::vector<double>& SeriesOf(const RunRecord& run, const std::string& key
   return found->second;
 }
 
-double SummaryNumber(const RunRecord& run, const std::string& key) {
-  const auto found = run.summary.find(key);
-  if (found == run.summary.end() || !found->is_number()) {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
-  return found->get<double>();
-}
-
 // One line per run over the frames' numbers; crosses where frames failed.
 std::vector<Series> LinesPerFrame(const Runs& runs, const std::string& key,
                                   double (*unit_of)(const RunRecord&)) {
@@ -94,19 +86,6 @@ double LastFrame(const Runs& runs) {
   return static_cast<double>(frames - 1);
 }
 
-// What the papers say of a metric, as lines across a plot.
-std::vector<Reference> Published(const ExperimentRecord& experiment, const std::string& metric) {
-  std::vector<Reference> references;
-  for (const Expectation& e : experiment.expectations) {
-    if (e.metric != metric || std::isnan(e.paper)) continue;
-    const MetricName name = NameOfMetric(metric);
-    references.push_back({fmt::format("{}: {:g}{}{}", e.source, e.paper * name.scale,
-                                      name.unit.empty() ? "" : " ", name.unit),
-                          e.paper});
-  }
-  return references;
-}
-
 Figure ErrorFigure(const ExperimentRecord& experiment, const RunGroup& group) {
   Figure figure;
   figure.name = "error-per-frame";
@@ -118,13 +97,13 @@ Figure ErrorFigure(const ExperimentRecord& experiment, const RunGroup& group) {
              kFrameAxis,
              "L2 error / diagonal",
              LinesPerFrame(group.runs, "l2_mean_m", Diagonal),
-             Published(experiment, "l2_mean_of_diagonal"),
+             PublishedReferences(experiment, "l2_mean_of_diagonal"),
              {}};
   Panel maximum{"maximum over the surface",
                 kFrameAxis,
                 "L2 error / diagonal",
                 LinesPerFrame(group.runs, "l2_max_m", Diagonal),
-                Published(experiment, "l2_max_of_diagonal"),
+                PublishedReferences(experiment, "l2_max_of_diagonal"),
                 {}};
   mean.x_end = maximum.x_end = LastFrame(group.runs);
   figure.panels = {std::move(mean), std::move(maximum)};
@@ -140,7 +119,7 @@ Figure TimeFigure(const ExperimentRecord& experiment, const RunGroup& group) {
               kFrameAxis,
               "time per frame (ms)",
               LinesPerFrame(group.runs, "frame_ms", One),
-              Published(experiment, "frame_ms_median"),
+              PublishedReferences(experiment, "frame_ms_median"),
               {}};
   panel.x_end = LastFrame(group.runs);
   panel.y_scale = Scale::kLogarithmic;  // a first frame may take ten times as long as the others
@@ -178,35 +157,6 @@ Figure AccuracyFigure(const ExperimentRecord& /*experiment*/, const RunGroup& gr
   return figure;
 }
 
-Figure SpeedFigure(const ReportedExperiment& experiment, const Runs& runs) {
-  Figure figure;
-  figure.name = kSpeedFigure;
-  figure.title = "Speed against error";
-  figure.caption =
-      "One point for each run: the median time per frame and the mean error over all frames, "
-      "failed "
-      "ones included. The bar reaches to the 95th percentile of the time. Down and to the left is "
-      "better.";
-  Panel panel{"",
-              "time per frame, median and 95th percentile (ms)",
-              "mean L2 error / diagonal",
-              {},
-              Published(experiment.record, "l2_mean_of_diagonal"),
-              Published(experiment.record, "frame_ms_median")};
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    Series point;
-    point.name = runs[r]->run_id;
-    point.color = kRunColors[r % kRunColors.size()];
-    point.mark = Mark::kPoints;
-    point.x = {SummaryNumber(*runs[r], "frame_ms_median")};
-    point.x_reach = {SummaryNumber(*runs[r], "frame_ms_p95")};
-    point.y = {SummaryNumber(*runs[r], "l2_mean_of_diagonal")};
-    panel.series.push_back(std::move(point));
-  }
-  figure.panels = {std::move(panel)};
-  return figure;
-}
-
 }  // namespace
 
 std::vector<Figure> MakeFigures(const ReportedExperiment& experiment) {
@@ -219,14 +169,14 @@ std::vector<Figure> MakeFigures(const ReportedExperiment& experiment) {
     for (const RunGroup& group : groups) {
       Figure figure = make(experiment.record, group);
       if (!group.suffix.empty()) {
-        figure.name += "-" + FileSafe(group.suffix);
+        figure.name = fmt::format("{}-{}", figure.name, FileSafe(group.suffix));
         figure.title += ": " + group.suffix;
       }
       figures.push_back(std::move(figure));
     }
   };
   add_for_each_group(ErrorFigure);
-  figures.push_back(SpeedFigure(experiment, runs));
+  figures.push_back(MakeSpeedFigure(experiment));
   add_for_each_group(AccuracyFigure);
   add_for_each_group(TimeFigure);
   return figures;

@@ -11,8 +11,8 @@ namespace vitruvia {
 // The figure that every experiment with a finished run has.
 inline constexpr const char* kSpeedFigure = "speed-against-error";
 
-// Error per frame, joint accuracy and time per frame for each scene, and speed against error for
-// all runs. DataError naming run and key if a record lacks a series.
+// Error per frame, joint accuracy and time per frame for each scene, and speed against error of all
+// variants (speed_figure.h). DataError naming run and key if a record lacks a series.
 std::vector<Figure> MakeFigures(const ReportedExperiment& experiment);
 
 }  // namespace vitruvia

@@ -55,6 +55,8 @@ const char* LatexVerdict(Verdict verdict) {
       return "met";
     case Verdict::kMissed:
       return "missed";
+    case Verdict::kNotComparable:
+      return "not comparable";
     case Verdict::kNoTarget:
     case Verdict::kNoResult:
       break;

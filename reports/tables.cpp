@@ -58,7 +58,9 @@ ComparedRun Compare(const ReportedRun& run, const Expectation& e, const MetricNa
   if (std::isnan(ours)) return compared;
   compared.ours = Printed(ours, metric);
   if (!std::isnan(e.paper)) compared.difference = PrintedSigned(ours - e.paper, metric);
-  if (!std::isnan(e.at_most))
+  if (!e.not_comparable.empty())
+    compared.verdict = Verdict::kNotComparable;
+  else if (!std::isnan(e.at_most))
     compared.verdict = ours <= e.at_most ? Verdict::kMet : Verdict::kMissed;
   else if (!std::isnan(e.at_least))
     compared.verdict = ours >= e.at_least ? Verdict::kMet : Verdict::kMissed;

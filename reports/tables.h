@@ -10,7 +10,7 @@
 
 namespace vitruvia {
 
-enum class Verdict { kNoTarget, kMet, kMissed, kNoResult };
+enum class Verdict { kNoTarget, kMet, kMissed, kNoResult, kNotComparable };
 
 struct ComparedRun {
   std::string run_id;

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commit.h"
+#include "core/calibration.h"
 
 namespace vitruvia {
 namespace {
@@ -79,6 +80,12 @@ nlohmann::json Provenance() {
       {"version", build.version},       {"commit", build.commit}, {"compiler", build.compiler},
       {"build_type", build.build_type}, {"flags", build.flags},   {"libraries", build.libraries},
       {"build_id", build.build_id},     {"cpu", machine.cpu},     {"cpu_threads", machine.threads}};
+}
+
+nlohmann::json TimedProvenance() {
+  nlohmann::json provenance = Provenance();
+  provenance["calibration_ms"] = CalibrationMs();
+  return provenance;
 }
 
 }  // namespace vitruvia

@@ -22,5 +22,8 @@ MachineInfo GetMachineInfo();
 
 // Both of the above, as records carry them.
 nlohmann::json Provenance();
+// That and calibration_ms, how fast the machine is at this moment (core/calibration.h): for records
+// of work that was timed just before. Takes some 0.1 s.
+nlohmann::json TimedProvenance();
 
 }  // namespace vitruvia

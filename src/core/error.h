@@ -17,8 +17,11 @@ enum class ExitCode : int {
   kInternalError = 1,     // a defect of vitruvia itself
   kBadConfiguration = 2,  // wrong arguments or a wrong config file
   kBadData = 3,           // a missing, damaged or inconsistent input
-  kFailedRun = 4,      // the work itself failed: output not writable, a run that ended in an error
-  kInterrupted = 130,  // stopped by the user
+  kFailedRun = 4,  // the work itself failed: output not writable, a run that ended in an error
+  kAccuracyRegressed = 5,  // the regression gate's findings: some number is worse than the baseline
+  kSpeedRegressed = 6,     // accuracy holds, but something is slower
+  kNothingMeasured = 7,    // or less than what the baseline holds: nothing is known of the rest
+  kInterrupted = 130,      // stopped by the user
 };
 
 class Error : public std::runtime_error {

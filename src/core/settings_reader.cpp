@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/json_settings.h"
+#include "core/settings_schema.h"
 #include "core/settings_text.h"
 
 namespace vitruvia {
@@ -248,6 +249,7 @@ class Reader final : public Fields {
   void RejectUnknownKeys(const Level& level) {
     for (const auto& [key, value] : level.json->items()) {
       if (level.known.contains(key)) continue;
+      if (key == kSchemaKey && level.path.empty() && value.is_string()) continue;
       const std::string nearest = NearestWord(key, {level.known.begin(), level.known.end()});
       std::string valid;
       for (const std::string& name : level.known) valid += (valid.empty() ? "" : ", ") + name;

@@ -3,7 +3,9 @@
 #include <functional>
 
 #include "core/error.h"
+#include "core/settings_schema.h"
 #include "methods/dynamic/dynamic.h"
+#include "methods/dynamic/skeleton_file.h"
 #include "methods/external/external.h"
 #include "methods/realtime_scape/realtime_scape.h"
 
@@ -19,7 +21,7 @@ struct Entry {
 template <class Method, class Settings>
 Entry MakeEntry(const char* name, const char* description) {
   return {
-      {name, description, Describe<Settings>(std::string(name))},
+      {name, description, VisitDefaults<Settings>},
       [](const Json& json, const JsonOrigin& origin) {
         return WriteSettings(ReadSettings<Settings>(json, origin));
       },
@@ -75,6 +77,26 @@ const std::vector<MethodInfo>& Methods() {
     return list;
   }();
   return infos;
+}
+
+void VisitMethodFile(Fields& fields) { VisitDefaults<MethodFile>(fields); }
+
+void VisitSkeletonFile(Fields& fields) { VisitDefaults<dynamic::SkeletonFile>(fields); }
+
+Json MethodFileSchema() {
+  Json schema = SettingsSchema(VisitMethodFile);
+  std::vector<std::string> names;
+  for (const MethodInfo& method : Methods()) {
+    names.push_back(method.name);
+    schema["allOf"].push_back(
+        {{"if",
+          {{"required", Json::array({"method"})},
+           {"properties", {{"method", {{"const", method.name}}}}}}},
+         {"then", {{"properties", {{"settings", SettingsSchema(method.visit_settings)}}}}}});
+  }
+  schema["properties"]["method"]["enum"] = names;
+  schema["properties"]["method"].erase("default");
+  return schema;
 }
 
 MethodConfig ReadMethodConfig(const Json& json, const JsonOrigin& origin) {

@@ -69,6 +69,7 @@ Expectation ParseExpectation(const JsonNode& node) {
           node.At("at_most").NumberOr(kNoValue),
           node.At("source").Text(),
           node.At("remark").Text(),
+          node.json().contains("not_comparable") ? node.At("not_comparable").Text() : "",
           node.At("at_least").NumberOr(kNoValue),
           node.At("scenes").List([](const JsonNode& scene) { return scene.Text(); })};
 }
@@ -123,6 +124,7 @@ void to_json(Json& json, const Expectation& e) {
           {"at_most", FiniteOrNull(e.at_most, e.metric + ".at_most")},
           {"source", e.source},
           {"remark", e.remark},
+          {"not_comparable", e.not_comparable},
           {"at_least", FiniteOrNull(e.at_least, e.metric + ".at_least")},
           {"scenes", e.scenes}};
 }

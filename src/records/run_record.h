@@ -21,13 +21,14 @@ namespace vitruvia {
 
 // A number that a paper prints, to be set beside ours.
 struct Expectation {
-  std::string metric;                                          // a key of the summary row
-  double paper = 0.0;                                          // published value; NaN: none
-  double at_most = 0.0;                                        // our target; NaN: none
-  std::string source;                                          // "paper A, figure 11"
-  std::string remark;                                          // how the work differs
+  std::string metric;            // a key of the summary row
+  double paper = 0.0;            // published value; NaN: none
+  double at_most = 0.0;          // our target; NaN: none
+  std::string source;            // "paper A, figure 11"
+  std::string remark;            // how the work differs
+  std::string not_comparable{};  // why ours says nothing about the paper's; "": it does
   double at_least = std::numeric_limits<double>::quiet_NaN();  // a target from the other side
-  std::vector<std::string> scenes;                             // that it is about; empty: all
+  std::vector<std::string> scenes{};                           // that it is about; empty: all
 
   bool IsAbout(const std::string& scene) const;
 

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/json_settings.h"
+#include "core/settings_schema.h"
 
 namespace vitruvia {
 namespace {
@@ -244,6 +245,8 @@ void CheckLoop(const std::vector<KeyFrame>& keys, const std::string& file) {
 }
 
 }  // namespace
+
+void VisitMotionFile(Fields& fields) { VisitDefaults<MotionFile>(fields); }
 
 KeyframeSequence ReadKeyframes(const std::filesystem::path& file) {
   const auto settings = ReadSettingsFile<MotionFile>(file);

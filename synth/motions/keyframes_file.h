@@ -18,6 +18,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "core/settings.h"
 #include "synth/motions/keyframes_pose.h"
 
 namespace vitruvia {
@@ -50,5 +51,8 @@ struct KeyframeSequence {
 // ConfigError naming file, key frame, joint, angle and limit on anything that is not as above, on
 // times that do not increase and on a loop that does not close.
 KeyframeSequence ReadKeyframes(const std::filesystem::path& file);
+
+// Walks over the fields of a motion file.
+void VisitMotionFile(Fields& fields);
 
 }  // namespace vitruvia

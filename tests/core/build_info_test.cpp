@@ -42,5 +42,12 @@ TEST(Provenance, HoldsAllOfIt) {
   EXPECT_GE(provenance.at("cpu_threads").get<int>(), 1);
 }
 
+TEST(TimedProvenance, SaysHowFastTheMachineIs) {
+  nlohmann::json timed = TimedProvenance();
+  EXPECT_GT(timed.at("calibration_ms").get<double>(), 0.0);
+  timed.erase("calibration_ms");
+  EXPECT_EQ(timed, Provenance());
+}
+
 }  // namespace
 }  // namespace vitruvia

@@ -1,0 +1,156 @@
+#include "reports/speed_figure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "metrics/pareto_front.h"
+#include "metrics/statistics.h"
+#include "records/metric_value.h"
+#include "reports/color_maps.h"
+#include "reports/metric_names.h"
+#include "reports/run_plots.h"
+#include "reports/variant_comparison.h"
+
+namespace vitruvia {
+namespace {
+
+constexpr const char* kErrorMetric = "l2_mean_of_diagonal";
+// An axis whose values differ by more than this factor is logarithmic.
+constexpr double kWideRange = 20.0;
+constexpr Color kFrontInk{0x55, 0x55, 0x55};
+constexpr double kFrontDash = 4.0;
+
+struct SpeedPoint {
+  std::string name;
+  double median_ms = 0.0, p95_ms = 0.0, error = 0.0;
+  bool on_front = false;
+};
+
+SpeedPoint PointOf(const Contender& contender) {
+  std::vector<double> frame_ms, errors;
+  for (const RunRecord* run : contender.runs) {
+    const auto found = run->frames.find("frame_ms");
+    if (found == run->frames.end()) continue;
+    frame_ms.insert(frame_ms.end(), found->second.begin(), found->second.end());
+    errors.push_back(MetricValue(*run, kErrorMetric));
+  }
+  if (frame_ms.empty()) return {contender.name, NAN, NAN, NAN};
+  return {contender.name, Quantile(frame_ms, 0.5), Quantile(frame_ms, 0.95), Mean(errors)};
+}
+
+std::vector<SpeedPoint> PointsOf(const ReportedExperiment& experiment) {
+  std::vector<SpeedPoint> points;
+  std::vector<Costs> costs;
+  for (const Contender& contender : ContendersOf(experiment)) {
+    const SpeedPoint point = PointOf(contender);
+    if (std::isnan(point.median_ms) || std::isnan(point.error)) continue;
+    points.push_back(point);
+    costs.push_back({point.median_ms, point.error});
+  }
+  const std::vector<bool> front = ParetoFront(costs);
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].on_front = front[i];
+  return points;
+}
+
+// From point to point of the front in steps: what can be had at each price.
+Series FrontLine(std::vector<SpeedPoint> points) {
+  std::erase_if(points, [](const SpeedPoint& point) { return !point.on_front; });
+  std::sort(points.begin(), points.end(),
+            [](const SpeedPoint& a, const SpeedPoint& b) { return a.median_ms < b.median_ms; });
+  Series line;
+  line.name = "front";
+  line.color = kFrontInk;
+  line.dash = kFrontDash;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (i > 0) {
+      line.x.push_back(points[i].median_ms);
+      line.y.push_back(points[i - 1].error);
+    }
+    line.x.push_back(points[i].median_ms);
+    line.y.push_back(points[i].error);
+  }
+  return line;
+}
+
+Series Drawn(const SpeedPoint& point, std::size_t index, bool numbered) {
+  Series series;
+  series.name = numbered ? fmt::format("{} {}", index + 1, point.name) : point.name;
+  series.color = kRunColors[index % kRunColors.size()];
+  series.mark = point.on_front ? Mark::kPoints : Mark::kRings;
+  series.x = {point.median_ms};
+  series.x_reach = {point.p95_ms};
+  series.y = {point.error};
+  if (numbered) series.label = fmt::format("{}", index + 1);
+  return series;
+}
+
+Scale ScaleFor(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return !(value > 0.0); });
+  if (values.empty()) return Scale::kLinear;
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return *most > kWideRange * *least ? Scale::kLogarithmic : Scale::kLinear;
+}
+
+std::string CalibrationText(const ReportedExperiment& experiment) {
+  std::vector<double> ms;
+  for (const RunRecord* run : experiment.finished()) {
+    if (!std::isnan(CalibrationOf(*run))) ms.push_back(CalibrationOf(*run));
+  }
+  if (ms.empty()) return "";
+  return fmt::format(
+      " The calibration kernel took {:.2f} ms beside these runs (median): times of another machine "
+      "compare as multiples of its own.",
+      Quantile(ms, 0.5));
+}
+
+}  // namespace
+
+std::vector<Reference> PublishedReferences(const ExperimentRecord& experiment,
+                                           const std::string& metric) {
+  std::vector<Reference> references;
+  for (const Expectation& e : experiment.expectations) {
+    if (e.metric != metric || std::isnan(e.paper)) continue;
+    const MetricName name = NameOfMetric(metric);
+    references.push_back({fmt::format("{}: {:g}{}{}", e.source, e.paper * name.scale,
+                                      name.unit.empty() ? "" : " ", name.unit),
+                          e.paper});
+  }
+  return references;
+}
+
+Figure MakeSpeedFigure(const ReportedExperiment& experiment) {
+  Figure figure;
+  figure.name = kSpeedFigure;
+  figure.title = "Speed against error";
+  figure.caption =
+      "One point for each variant, over all its scenes and seeds: the median time per frame, with "
+      "a "
+      "bar to the 95th percentile, and the mean error over all frames, failed ones included. Down "
+      "and to the left is better: discs are the variants that no other beats in both, the dashed "
+      "line is what can be had at each price, rings are beaten." +
+      CalibrationText(experiment);
+  Panel panel{"",
+              "time per frame, median and 95th percentile (ms)",
+              "mean L2 error / diagonal",
+              {},
+              PublishedReferences(experiment.record, kErrorMetric),
+              PublishedReferences(experiment.record, "frame_ms_median")};
+  const std::vector<SpeedPoint> points = PointsOf(experiment);
+  std::vector<double> times_ms, errors;
+  for (const SpeedPoint& point : points) {
+    times_ms.insert(times_ms.end(), {point.median_ms, point.p95_ms});
+    errors.push_back(point.error);
+  }
+  panel.x_scale = ScaleFor(times_ms);
+  panel.y_scale = ScaleFor(errors);
+  const Series front = FrontLine(points);
+  if (front.x.size() > 1) panel.series.push_back(front);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    panel.series.push_back(Drawn(points[i], i, points.size() > kRunColors.size()));
+  figure.panels = {std::move(panel)};
+  return figure;
+}
+
+}  // namespace vitruvia
