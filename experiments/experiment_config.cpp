@@ -224,7 +224,10 @@ SceneSettings ReadScene(const fs::path& scene_file, const Json& overrides) {
 }
 
 ExperimentPlan PlanExperiment(const fs::path& experiment_file) {
-  const auto settings = ReadSettingsFile<ExperimentSettings>(experiment_file);
+  return PlanExperiment(ReadSettingsFile<ExperimentSettings>(experiment_file), experiment_file);
+}
+
+ExperimentPlan PlanExperiment(const ExperimentSettings& settings, const fs::path& experiment_file) {
   ExperimentPlan plan;
   plan.timed = settings.timed;
   plan.record.name = ConfigName(experiment_file);

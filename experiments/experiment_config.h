@@ -81,6 +81,9 @@ struct ExperimentPlan {
 
 // Reads the experiment and everything it names. Throws ConfigError before anything has run.
 ExperimentPlan PlanExperiment(const std::filesystem::path& experiment_file);
+// The same of settings that were read from that file, and perhaps changed since.
+ExperimentPlan PlanExperiment(const ExperimentSettings& settings,
+                              const std::filesystem::path& experiment_file);
 
 // A scene file, with overrides applied.
 SceneSettings ReadScene(const std::filesystem::path& scene_file,
