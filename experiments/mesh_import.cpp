@@ -20,7 +20,7 @@ namespace {
 
 constexpr float kNearestToCamera_m = 0.1f;
 
-std::vector<fs::path> MeshFiles(const fs::path& folder) {
+std::vector<fs::path> FrameFiles(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
@@ -166,7 +166,7 @@ void MeshSequenceSettings::Describe(Fields& f) {
 }
 
 void ImportMeshSequence(const MeshSequenceSettings& settings, const fs::path& folder) {
-  const std::vector<fs::path> files = MeshFiles(settings.meshes);
+  const std::vector<fs::path> files = FrameFiles(settings.meshes);
   const BodyModel subject = ReadBodyModel(settings.subject);
   const TriangleMesh rest = ReadScaled(settings.rest, settings.unit_m);
   const PinholeCamera& camera = settings.view.camera;

@@ -1,5 +1,6 @@
 #include "experiments/command_line.h"
 
+#include <cstdlib>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -24,10 +25,13 @@ CallResult CallVitruvia(const std::vector<std::string>& arguments) {
   std::vector<char*> argv = {const_cast<char*>(VITRUVIA_PROGRAM)};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
+  static const TemporaryFolder
+      locks;  // runs that somebody times on this machine are not waited for
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
   const pid_t process = fork();
   if (process == 0) {
+    setenv("TMPDIR", locks.path().c_str(), 1);
     execv(VITRUVIA_PROGRAM, argv.data());
     _exit(-1);
   }

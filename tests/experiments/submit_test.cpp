@@ -69,9 +69,9 @@ TEST_F(Submit, ASlurmOfOneNodeCarriesItOutToTheSameResult) {
   }
   const TemporaryFolder slurm;
   const std::string command = fmt::format(
-      "{}/tests/experiments/one_node_slurm.sh {} {} submit {} -o {} --shards 2 >{} 2>&1",
-      VITRUVIA_SOURCE_DIR, (slurm / "s").string(), VITRUVIA_PROGRAM, files_.File("seeds.json"),
-      files_.File("slurm"), files_.File("said"));
+      "TMPDIR={} {}/tests/experiments/one_node_slurm.sh {} {} submit {} -o {} --shards 2 >{} 2>&1",
+      slurm.path().string(), VITRUVIA_SOURCE_DIR, (slurm / "s").string(), VITRUVIA_PROGRAM,
+      files_.File("seeds.json"), files_.File("slurm"), files_.File("said"));
   const int status = std::system(command.c_str());
   const std::string said = ReadWholeFile(files_ / "said");
   ASSERT_EQ(WEXITSTATUS(status), 0) << said;
