@@ -34,6 +34,18 @@ void SendMessagesTo(const std::filesystem::path& file) {
   _exit(code);  // what the parent has open is the parent's to close
 }
 
+// A forked process has only the thread that forked: it would wait forever for work of the others.
+void RequireNoThreads() {
+  std::error_code unknown;
+  const auto threads =
+      std::distance(std::filesystem::directory_iterator("/proc/self/task", unknown),
+                    std::filesystem::directory_iterator());
+  Require(threads <= 1,
+          "ChildProcesses: this process has {} threads (it has rendered something?); expected runs "
+          "to be carried out before",
+          threads);
+}
+
 std::string ProblemOf(int status) {
   if (!WIFSIGNALED(status)) return "";
   const int signal = WTERMSIG(status);
@@ -51,6 +63,7 @@ ChildProcesses::~ChildProcesses() {
 
 void ChildProcesses::Start(int id, const std::filesystem::path& messages,
                            const std::function<int()>& work) {
+  RequireNoThreads();
   std::fflush(nullptr);  // or both processes would write what is waiting
   const pid_t self = getpid();
   const pid_t process = fork();

@@ -18,6 +18,7 @@ class ChildProcesses {
   ChildProcesses& operator=(const ChildProcesses&) = delete;
 
   // Calls `work` in a child, which then ends with the code that it returns; `work` throws nothing.
+  // This process must not have other threads; rendering leaves some behind.
   // Its messages (standard error) go to the end of the file, or where ours go if that is "".
   void Start(int id, const std::filesystem::path& messages, const std::function<int()>& work);
 

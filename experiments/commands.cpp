@@ -26,6 +26,7 @@
 #include "experiments/score.h"
 #include "experiments/status_command.h"
 #include "experiments/submit_command.h"
+#include "experiments/sufficient_command.h"
 #include "experiments/tracking_runs.h"
 #include "reports/report.h"
 
@@ -80,7 +81,7 @@ void Track(const fs::path& method_file, const fs::path& sequence_folder, const f
   const SequenceReader sequence(sequence_folder);
   TrackSequence(sequence, method, sequence.subject(), output);
   RunRecord record;
-  ScoreRun(sequence, EstimateReader(output), record);
+  ScoreRun(sequence, EstimateReader(output), ScoreSettings(), record);
   fmt::print("{}\n", record.summary.dump(2));
 }
 
@@ -117,6 +118,7 @@ void AddCommands(CLI::App& app, Arguments& a) {
   AddRunCommand(app);
   AddStatusCommand(app);
   AddSubmitCommand(app);
+  AddSufficientCommand(app);
   AddRescoreCommand(app);
   AddExportCommand(app);
   AddImportCommand(app);
@@ -154,7 +156,8 @@ int RunCommandLine(int argc, const char* const* argv) {
     if (app.get_subcommands().empty()) {
       throw ConfigError(
           "expected a command: list, synth, import, learn, scan, fit, track, run, status, submit, "
-          "rescore, export, report, index, compare, regress, schema or explain (--help)");
+          "rescore, export, report, index, compare, "
+          "sufficient, regress, schema or explain (--help)");
     }
     return static_cast<int>(ExitCode::kSuccess);
   } catch (const CLI::Success& success) {  // --help, --version

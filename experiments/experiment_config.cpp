@@ -1,6 +1,7 @@
 #include "experiments/experiment_config.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "core/error.h"
@@ -23,8 +24,9 @@ bool IsPlainName(const std::string& name) {
 constexpr std::size_t kLongestRunId = 200;
 
 RunPlan PlanRun(const fs::path& scene_file, const fs::path& method_file,
-                const VariantSettings& variant, int seed) {
+                const VariantSettings& variant, int seed, const ScoreSettings& score) {
   RunPlan run;
+  run.score = score;
   run.variant = variant.name;
   run.scene = scene_file.stem().string();
   run.method_name = method_file.stem().string();
@@ -34,7 +36,8 @@ RunPlan PlanRun(const fs::path& scene_file, const fs::path& method_file,
   run.method =
       ReadMethodConfig(Merged(ReadJsonFile(method_file), variant.method), {method_file, ""});
   run.resolved = {{"scene", WriteSettings(run.scene_settings)},
-                  {"method", {{"method", run.method.method}, {"settings", run.method.settings}}}};
+                  {"method", {{"method", run.method.method}, {"settings", run.method.settings}}},
+                  {"score", WriteSettings(score)}};
   if (!variant.subject.empty()) {
     run.subject = ReadSubjectRecipe(variant.subject);
     run.resolved["subject"] = ResolvedRecipe(*run.subject);
@@ -74,7 +77,7 @@ void AddRuns(const fs::path& scene, const fs::path& method, const VariantSetting
              const ExperimentSettings& settings, std::vector<RunPlan>& runs) {
   try {
     for (const int seed : settings.seeds) {
-      RunPlan run = PlanRun(scene, method, variant, seed);
+      RunPlan run = PlanRun(scene, method, variant, seed, settings.score);
       for (int repeat = 1; repeat <= settings.repeats; ++repeat) {
         if (settings.repeats > 1) run.repeat = repeat;
         NameRun(run);
@@ -87,13 +90,34 @@ void AddRuns(const fs::path& scene, const fs::path& method, const VariantSetting
   }
 }
 
+// A mistyped number must not keep a machine busy with planning alone.
+constexpr double kMostRuns = 100000;
+
+void RequireFewEnough(const ExperimentSettings& settings, std::size_t variants,
+                      const fs::path& file) {
+  const double runs = static_cast<double>(settings.scenes.size()) *
+                      static_cast<double>(settings.methods.size()) * static_cast<double>(variants) *
+                      static_cast<double>(settings.seeds.size()) * settings.repeats;
+  if (runs <= kMostRuns) return;
+  throw ConfigError(fmt::format("{}: stands for {:g} runs, expected at most {:g}", file.string(),
+                                runs, kMostRuns));
+}
+
+void RequireDifferentNames(const std::vector<VariantSettings>& variants, const fs::path& file) {
+  std::set<std::string> names;
+  for (const VariantSettings& variant : variants) {
+    if (names.insert(variant.name).second) continue;
+    throw ConfigError(fmt::format("{}: the sweep makes two variants of the name {}", file.string(),
+                                  variant.name));
+  }
+}
+
 void RequireDifferentRuns(const std::vector<RunPlan>& runs, const fs::path& file) {
   std::set<std::string> ids;
   for (const RunPlan& run : runs) {
     if (ids.insert(run.run_id).second) continue;
-    throw ConfigError(fmt::format(
-        "{}: the run {} stands twice: a seed, a file or a value of the sweep is repeated",
-        file.string(), run.run_id));
+    throw ConfigError(fmt::format("{}: the run {} stands twice: a seed or a file is repeated",
+                                  file.string(), run.run_id));
   }
 }
 
@@ -122,10 +146,21 @@ void ExpectationSettings::Describe(Fields& f) {
   f.Text("metric", metric, {.meaning = "a key of the summary rows", .required = true});
   f.Number("paper", paper, {.meaning = "the value that the paper prints"});
   f.Number("at_most", at_most, {.meaning = "our target"});
+  f.Number("at_least", at_least, {.meaning = "our target, where more is better"});
   f.Text("source", source, {.meaning = "where the paper prints it"});
   f.Text("remark", remark, {.meaning = "how the work differs"});
   f.Text("not_comparable", not_comparable,
          {.meaning = "why our number says nothing about the paper's: no verdict is given"});
+  f.Texts("scenes", scenes, {.meaning = "names of the scenes that it is about; all if empty"});
+}
+
+std::string ExpectationSettings::Problem() const {
+  if (std::isnan(at_most) || std::isnan(at_least)) return "";
+  return fmt::format("at_most {} and at_least {}: expected one of the two", at_most, at_least);
+}
+
+Expectation ExpectationSettings::AsRecorded() const {
+  return {metric, paper, at_most, source, remark, not_comparable, at_least, scenes};
 }
 
 void ExperimentSettings::Describe(Fields& f) {
@@ -152,6 +187,7 @@ void ExperimentSettings::Describe(Fields& f) {
   f.List("expectations", expectations, {.meaning = "numbers of the paper to print beside ours"});
   f.Integers("picture_frames", picture_frames,
              {.meaning = "frames at which the report shows pictures", .min = 0, .max = 1e9});
+  f.Section("score", score, {.meaning = "what is measured beside the usual"});
 }
 
 std::string ExperimentSettings::Problem() const {
@@ -188,7 +224,10 @@ SceneSettings ReadScene(const fs::path& scene_file, const Json& overrides) {
 }
 
 ExperimentPlan PlanExperiment(const fs::path& experiment_file) {
-  const auto settings = ReadSettingsFile<ExperimentSettings>(experiment_file);
+  return PlanExperiment(ReadSettingsFile<ExperimentSettings>(experiment_file), experiment_file);
+}
+
+ExperimentPlan PlanExperiment(const ExperimentSettings& settings, const fs::path& experiment_file) {
   ExperimentPlan plan;
   plan.timed = settings.timed;
   plan.record.name = ConfigName(experiment_file);
@@ -196,10 +235,11 @@ ExperimentPlan PlanExperiment(const fs::path& experiment_file) {
   plan.record.description = settings.description;
   plan.record.picture_frames = settings.picture_frames;
   for (const ExpectationSettings& e : settings.expectations) {
-    plan.record.expectations.push_back(
-        {e.metric, e.paper, e.at_most, e.source, e.remark, e.not_comparable});
+    plan.record.expectations.push_back(e.AsRecorded());
   }
   const std::vector<VariantSettings> variants = Swept(settings.variants, settings.sweep);
+  RequireDifferentNames(variants, experiment_file);
+  RequireFewEnough(settings, variants.size(), experiment_file);
   for (const fs::path& scene : settings.scenes) {
     for (const fs::path& method : settings.methods) {
       for (const VariantSettings& variant : variants)

@@ -9,6 +9,7 @@
 
 #include "core/json_settings.h"
 #include "experiments/fitted_subject.h"
+#include "experiments/score.h"
 #include "experiments/sweep.h"
 #include "methods/registry.h"
 #include "records/run_record.h"
@@ -32,9 +33,13 @@ struct ExpectationSettings {
   std::string metric;
   double paper = std::numeric_limits<double>::quiet_NaN();
   double at_most = std::numeric_limits<double>::quiet_NaN();
+  double at_least = std::numeric_limits<double>::quiet_NaN();
   std::string source, remark, not_comparable;
+  std::vector<std::string> scenes;  // none: all
 
   void Describe(Fields& fields);
+  std::string Problem() const;
+  Expectation AsRecorded() const;
 };
 
 struct ExperimentSettings {
@@ -48,6 +53,7 @@ struct ExperimentSettings {
   bool timed = false;
   std::vector<ExpectationSettings> expectations;
   std::vector<int> picture_frames{0};
+  ScoreSettings score;
 
   void Describe(Fields& fields);
   std::string Problem() const;
@@ -63,7 +69,8 @@ struct RunPlan {
   SceneSettings scene_settings;
   MethodConfig method;
   std::optional<SubjectRecipe> subject;
-  Json resolved;  // { "scene": …, "method": …, and with a recipe "subject": … }
+  ScoreSettings score;
+  Json resolved;  // { "scene": …, "method": …, "score": …, and with a recipe "subject": … }
 };
 
 struct ExperimentPlan {
@@ -74,6 +81,9 @@ struct ExperimentPlan {
 
 // Reads the experiment and everything it names. Throws ConfigError before anything has run.
 ExperimentPlan PlanExperiment(const std::filesystem::path& experiment_file);
+// The same of settings that were read from that file, and perhaps changed since.
+ExperimentPlan PlanExperiment(const ExperimentSettings& settings,
+                              const std::filesystem::path& experiment_file);
 
 // A scene file, with overrides applied.
 SceneSettings ReadScene(const std::filesystem::path& scene_file,

@@ -1,6 +1,5 @@
 // The files of an experiment that speak of all its runs: plan.json, experiment.json, summary.json.
 #include "core/build_info.h"
-#include "core/file_lock.h"
 #include "core/files.h"
 #include "experiments/run_state.h"
 #include "experiments/runner.h"
@@ -20,10 +19,6 @@ std::vector<std::pair<std::string, RunStatus>> StatusOfAll(const fs::path& folde
   return all;
 }
 
-FileLock LockSummary(const fs::path& folder) {
-  return FileLock::Wait(folder / "lock", LockKind::kExclusive);
-}
-
 // Reports show what a record says unless the experiment says otherwise, so stale ones are named.
 void WriteFailures(const fs::path& folder,
                    const std::vector<std::pair<std::string, RunStatus>>& runs) {
@@ -38,17 +33,21 @@ void WriteFailures(const fs::path& folder,
 
 }  // namespace
 
+FileLock LockExperiment(const fs::path& folder) {
+  return FileLock::Wait(folder / "lock", LockKind::kExclusive);
+}
+
 void WritePlan(const Experiment& experiment, const fs::path& folder) {
   MakeFolder(folder);
   PlannedKeys plan{GetBuildInfo().build_id, {}};
   for (const PlannedRun& run : experiment.runs) plan.keys.emplace_back(run.run_id, run.key);
-  const FileLock lock = LockSummary(folder);
+  const FileLock lock = LockExperiment(folder);
   WriteExperimentRecord(folder, experiment.record);
   WritePlannedKeys(folder, plan);
 }
 
 int WriteSummary(const fs::path& folder) {
-  const FileLock lock = LockSummary(folder);
+  const FileLock lock = LockExperiment(folder);
   const auto runs = StatusOfAll(folder);
   Json rows = Json::array(), failed = Json::object(), missing = Json::array();
   for (const auto& [run_id, status] : runs) {

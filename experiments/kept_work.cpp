@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/build_info.h"
+#include "core/error.h"
 #include "core/file_lock.h"
 #include "core/files.h"
 #include "core/hash.h"
@@ -14,28 +15,34 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Folders of data can hold gigabytes: their files are told apart by name, size and time.
+// Settings that name folders of data, not texts that happen to be a folder's name.
+bool NamesFolder(const std::string& key) { return key.ends_with("folder") || key == "sequence"; }
+
+// Such folders can hold gigabytes: their files are told apart by name, size and time.
 void AddFolder(const fs::path& folder, Hash64& hash) {
   std::vector<std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file()) continue;
-    files.push_back(fmt::format("{} {} {}", entry.path().lexically_relative(folder).string(),
-                                entry.file_size(),
-                                entry.last_write_time().time_since_epoch().count()));
+  std::error_code unreadable;
+  fs::recursive_directory_iterator it(folder, unreadable), end;
+  for (; !unreadable && it != end; it.increment(unreadable)) {
+    std::error_code gone;
+    if (!it->is_regular_file(gone)) continue;
+    files.push_back(fmt::format("{} {} {}", it->path().lexically_relative(folder).string(),
+                                it->file_size(gone),
+                                it->last_write_time(gone).time_since_epoch().count()));
   }
   std::sort(files.begin(), files.end());
   for (const std::string& file : files) hash.Add(file);
 }
 
-void AddNamedFiles(const Json& json, Hash64& hash) {
+void AddNamedFiles(const std::string& key, const Json& json, Hash64& hash) {
   if (json.is_string()) {
     const fs::path file = json.get<std::string>();
     std::error_code not_a_file;  // texts of all kinds are asked
     if (fs::is_regular_file(file, not_a_file)) hash.AddFile(file);
-    if (file.has_parent_path() && fs::is_directory(file, not_a_file)) AddFolder(file, hash);
+    if (NamesFolder(key)) AddFolder(file, hash);
   }
   if (json.is_structured()) {
-    for (const Json& item : json) AddNamedFiles(item, hash);
+    for (const auto& item : json.items()) AddNamedFiles(item.key(), item.value(), hash);
   }
 }
 
@@ -44,7 +51,7 @@ void AddNamedFiles(const Json& json, Hash64& hash) {
 std::string WorkKey(const Json& resolved) {
   Hash64 hash;
   hash.Add(GetBuildInfo().build_id).Add(resolved.dump());
-  AddNamedFiles(resolved, hash);
+  AddNamedFiles("", resolved, hash);
   return hash.Hex();
 }
 
@@ -54,8 +61,12 @@ KeptFolder::KeptFolder(const fs::path& cache, const std::string& name, const Jso
       key_(WorkKey(resolved)) {}
 
 bool KeptFolder::complete() const {
-  return fs::is_directory(folder_) && fs::is_regular_file(marker_) &&
-         ReadWholeFile(marker_) == key_;
+  if (!fs::is_directory(folder_)) return false;
+  try {
+    return ReadWholeFile(marker_) == key_;
+  } catch (const DataError&) {
+    return false;  // not made yet, or being made anew at this moment
+  }
 }
 
 void KeptFolder::Obtain(const std::function<void(const fs::path&)>& make) const {
@@ -64,6 +75,7 @@ void KeptFolder::Obtain(const std::function<void(const fs::path&)>& make) const 
   const FileLock lock = FileLock::Wait(folder_.string() + ".lock", LockKind::kExclusive);
   if (complete()) return;  // made while we waited
   RemoveUnfinished(folder_);
+  fs::remove(marker_);  // or what another build made would be taken for what we make
   make(folder_);
   WriteWholeFile(marker_, key_);
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <Eigen/QR>
+
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/json_settings.h"
@@ -9,7 +11,6 @@
 #include "geometry/mesh_io.h"
 #include "geometry/surface_map.h"
 #include "geometry/zbuffer.h"
-#include "metrics/bone_motion.h"
 #include "sequence/sequence.h"
 #include "synth/scene/recording.h"
 
@@ -17,9 +18,6 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
-// Vertices that nearly follow one bone alone show where it is.
-constexpr float kFollowsOneBone = 0.9f;
-constexpr std::size_t kFewestOfBone = 3;
 constexpr float kNearestToCamera_m = 0.1f;
 
 std::vector<fs::path> MeshFiles(const fs::path& folder) {
@@ -43,62 +41,63 @@ TriangleMesh ReadScaled(const fs::path& file, double unit_m) {
   return mesh;
 }
 
-// Where the subject's joints are, given the true surface in some pose.
+// Where the subject's joints are, given the true surface in some pose: the affine motions A_b of
+// the bones that come nearest to Σ_b w_vb A_b x_v = y_v over all vertices v of the template (x_v at
+// rest, y_v now, w_vb its skinning weights), by linear least squares. Exact for a linearly skinned
+// truth.
 class JointFinder {
  public:
   JointFinder(const BodyModel& subject, const TriangleMesh& true_rest)
       : subject_(subject),
         on_truth_(ClosestSurfacePoints(subject.rest.vertices, true_rest)),
         triangles_(true_rest.triangles),
-        of_bone_(kBoneCount),
-        parts_(subject.rest.vertices, BoneOfVertex(subject), kBoneCount) {
-    const std::vector<int> bones = BoneOfVertex(subject);
-    for (std::size_t v = 0; v < bones.size(); ++v) {
-      if (bones[v] >= 0) of_bone_[bones[v]].push_back(v);
-    }
-    for (int b = 0; b < kBoneCount; ++b) {
-      if (of_bone_[b].size() >= kFewestOfBone) continue;
+        rows_(Rows(subject)),
+        normal_(rows_.transpose() * rows_) {
+    if (normal_.rank() < kUnknowns) {
       throw DataError(
-          fmt::format("subject: {} vertices follow the bone {} alone, expected at least "
-                      "{}: its joint cannot be found on the meshes",
-                      of_bone_[b].size(), Bones()[b].name, kFewestOfBone));
+          fmt::format("subject: its weights leave the motion of a bone open (rank {} of {}), so "
+                      "that the joints "
+                      "cannot be found on the meshes",
+                      normal_.rank(), kUnknowns));
     }
   }
 
   std::vector<Vector3d> Find(const std::vector<Vector3f>& true_vertices) const {
-    std::vector<Vector3f> posed;
-    for (const SurfacePoint& point : on_truth_)
-      posed.push_back(Evaluate(point, true_vertices.data(), triangles_));
-    const BoneRotations rotations = parts_.Rotations(posed);
+    Eigen::MatrixX3d places(rows_.rows(), 3);
+    for (std::size_t v = 0; v < on_truth_.size(); ++v) {
+      places.row(static_cast<Eigen::Index>(v)) =
+          Evaluate(on_truth_[v], true_vertices.data(), triangles_).cast<double>().transpose();
+    }
+    const Eigen::MatrixX3d motions = normal_.solve(rows_.transpose() * places);
     std::vector<Vector3d> joints;
     for (int b = 0; b < kBoneCount; ++b) {
-      joints.push_back(Middle(posed, b) + rotations[b] * (subject_.skeleton.joints[b] -
-                                                          Middle(subject_.rest.vertices, b)));
+      const Eigen::RowVector4d rest = subject_.skeleton.joints[b].homogeneous().transpose();
+      joints.emplace_back((rest * motions.middleRows<4>(4 * b)).transpose());
     }
     return joints;
   }
 
  private:
-  static std::vector<int> BoneOfVertex(const BodyModel& subject) {
-    std::vector<int> bones;
-    for (std::size_t v = 0; v < subject.rest.vertices.size(); ++v) {
-      const bool follows_one = subject.weights.weights[v][0] >= kFollowsOneBone;
-      bones.push_back(follows_one ? subject.weights.bones[v][0] : -1);
-    }
-    return bones;
-  }
+  static constexpr int kUnknowns = 4 * kBoneCount;  // per coordinate
 
-  Vector3d Middle(const std::vector<Vector3f>& vertices, int bone) const {
-    Vector3d sum = Vector3d::Zero();
-    for (const std::size_t v : of_bone_[bone]) sum += vertices[v].cast<double>();
-    return sum / static_cast<double>(of_bone_[bone].size());
+  static Eigen::MatrixXd Rows(const BodyModel& subject) {
+    const std::vector<Vector3f>& rest = subject.rest.vertices;
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rest.size()), kUnknowns);
+    for (std::size_t v = 0; v < rest.size(); ++v) {
+      for (std::size_t k = 0; k < subject.weights.weights[v].size(); ++k) {
+        const double weight = subject.weights.weights[v][k];
+        rows.block<1, 4>(static_cast<Eigen::Index>(v), 4 * subject.weights.bones[v][k]) +=
+            weight * rest[v].cast<double>().homogeneous().transpose();
+      }
+    }
+    return rows;
   }
 
   const BodyModel& subject_;
   std::vector<SurfacePoint> on_truth_;
   std::vector<Triangle> triangles_;
-  std::vector<std::vector<std::size_t>> of_bone_;
-  RigidParts parts_;
+  Eigen::MatrixXd rows_;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> normal_;
 };
 
 // The vertices of one frame, camera frame.

@@ -28,10 +28,9 @@ struct MeshSequenceSettings {
   void Describe(Fields& fields);
 };
 
-// Writes the sequence (sequence/sequence.h). The true joints are carried by the vertices that
-// follow one bone of the subject alone, each by the rigid motion that fits them best. DataError
-// naming the file if a mesh is damaged, has other triangles than the rest mesh, or lies behind the
-// camera.
+// Writes the sequence (sequence/sequence.h). The true joints are where the motions of the bones put
+// them that explain the meshes best by the subject's own weights (least squares). DataError naming
+// the file if a mesh is damaged, has other triangles than the rest mesh, or lies behind the camera.
 void ImportMeshSequence(const MeshSequenceSettings& settings, const std::filesystem::path& folder);
 
 }  // namespace vitruvia

@@ -2,10 +2,21 @@
 
 #include "core/build_info.h"
 #include "core/error.h"
+#include "core/json_settings.h"
 #include "experiments/score.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
+
+namespace {
+
+// As the run was scored; older records say nothing and measured only the usual.
+ScoreSettings ScoreSettingsOf(const RunRecord& record) {
+  const Json settings = record.config.value("score", Json::object());
+  return ReadSettings<ScoreSettings>(settings, {record.run_id, "config.score"});
+}
+
+}  // namespace
 
 RunRecord Rescored(const fs::path& experiment_folder, const RunRecord& record) {
   const SequenceReader sequence(experiment_folder / record.sequence_folder);
@@ -30,7 +41,8 @@ RunRecord Rescored(const fs::path& experiment_folder, const RunRecord& record) {
   for (const char* key : {"run_id", "variant", "scene", "seed", "method", "repeat"}) {
     if (record.summary.contains(key)) fresh.summary[key] = record.summary.at(key);
   }
-  ScoreRun(sequence, EstimateReader(experiment_folder / record.run_id / "estimate"), fresh);
+  ScoreRun(sequence, EstimateReader(experiment_folder / record.run_id / "estimate"),
+           ScoreSettingsOf(record), fresh);
   return fresh;
 }
 

@@ -46,11 +46,13 @@ void PrintRows(const fs::path& folder, const std::vector<PlannedRun>& runs) {
       columns.emplace_back(column);
     }
   }
-  fmt::print("{:<52}", "run");
+  std::size_t widest = 0;
+  for (const PlannedRun& run : runs) widest = std::max(widest, run.run_id.size());
+  fmt::print("{:<{}}", "run", widest);
   for (const std::string& column : columns) fmt::print(" {:>20}", column);
   fmt::print("\n");
   for (const Json& row : rows) {
-    fmt::print("{:<52}", row["run_id"].get<std::string>());
+    fmt::print("{:<{}}", row["run_id"].get<std::string>(), widest);
     for (const std::string& column : columns)
       fmt::print(" {:>20.6g}", row.value(column, std::numeric_limits<double>::quiet_NaN()));
     fmt::print("\n");
@@ -64,6 +66,7 @@ void FinishExperiment(const fs::path& folder, bool is_shard) {
     fmt::print("{} runs of other shards are not done yet: no report\n", missing);
     return;
   }
+  const FileLock lock = LockExperiment(folder);  // others may have come to their end too
   fmt::print("report: {}\n", WriteReport(folder).string());
 }
 

@@ -18,8 +18,11 @@ std::string DoneText(const std::string& key) { return fmt::format("done {}\n", k
 std::string FailedHead(const std::string& key) { return fmt::format("failed {}\n", key); }
 
 std::string StatusText(const fs::path& run_folder) {
-  const fs::path file = run_folder / kStatusFile;
-  return fs::is_regular_file(file) ? ReadWholeFile(file) : "";
+  try {
+    return ReadWholeFile(run_folder / kStatusFile);
+  } catch (const DataError&) {
+    return "";  // not there, or taken away by who begins the run at this moment
+  }
 }
 
 std::string WithoutLastNewline(std::string text) {

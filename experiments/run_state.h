@@ -2,6 +2,7 @@
 //
 //   <run id>/status   "done KEY" or "failed KEY" and the reason; absent: not carried out
 //   <run id>/lock     locked by the process that carries the run out
+//   <run id>/messages what a run prints that goes on beside others
 #pragma once
 
 #include <filesystem>

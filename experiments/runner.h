@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "core/file_lock.h"
 #include "experiments/planned_run.h"
 
 namespace vitruvia {
@@ -17,6 +18,9 @@ struct ExperimentOutcome {
   int kept = 0;    // runs found done by this same build, or done by another caller meanwhile
   int failed = 0;  // runs that ended in an error or a crash
 };
+
+// Who writes files that speak of the whole experiment holds this lock meanwhile.
+FileLock LockExperiment(const std::filesystem::path& folder);
 
 // Writes what status and report need to know of the whole grid: experiment.json and plan.json.
 void WritePlan(const Experiment& experiment, const std::filesystem::path& folder);

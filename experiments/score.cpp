@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "body/skeleton.h"
 #include "core/error.h"
+#include "matching/point_cloud.h"
 #include "metrics/bone_motion.h"
 #include "metrics/joint_error.h"
+#include "metrics/reconstruction_error.h"
 #include "metrics/statistics.h"
 #include "metrics/vertex_error.h"
 
@@ -17,6 +20,7 @@ namespace {
 // Joint errors of all frames, sorted by what the camera could see.
 struct JointErrorsByClass {
   std::vector<double> all, visible, hidden;
+  std::vector<double> less_offset;  // of all, each joint's mean offset taken off
   std::map<std::string, std::vector<double>> per_joint;
 };
 
@@ -102,18 +106,71 @@ void RecordQuantiles(std::vector<double> errors_m, RunRecord& record) {
   record.frames["l2_p99_m"].push_back(Quantile(errors_m, 0.99));
 }
 
+std::vector<Vector3f> Chosen(const std::vector<Vector3f>& points, const std::vector<bool>& chosen) {
+  std::vector<Vector3f> kept;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (chosen[i]) kept.push_back(points[i]);
+  }
+  return kept;
+}
+
+// How far the estimate's visible vertices lie from what was observed (paper B, figure 6), and from
+// the true surface, which the paper could not have. Summed over every n-th frame.
+class ReconstructionWatch {
+ public:
+  ReconstructionWatch(const SequenceReader& sequence, const EstimateReader& estimate, int every)
+      : camera_(sequence.info().camera),
+        triangles_(estimate.rest_mesh().triangles),
+        every_(every),
+        zbuffer_(camera_) {}
+
+  void Add(int frame, const std::vector<Vector3f>& estimate, const DepthImage& observed,
+           const TriangleMesh& truth) {
+    if (every_ == 0 || frame % every_ != 0) return;
+    const DepthImage& seen = zbuffer_.Render(estimate, triangles_);
+    const std::vector<Vector3f> visible =
+        Chosen(estimate, VisiblePoints(estimate, seen, camera_, kVisibleWithin_m));
+    CloudFromDepth(observed, camera_, 1, std::numeric_limits<float>::infinity(), cloud_);
+    Append(DistancesToPoints(visible, cloud_.points), to_observed_m_);
+    Append(DistancesToSurface(visible, truth), to_truth_m_);
+  }
+
+  void Summarize(nlohmann::json& row) const {
+    if (every_ == 0) return;
+    row["reconstruction_mean_m"] = Mean(to_observed_m_);
+    row["reconstruction_p95_m"] = Quantile(to_observed_m_, 0.95);
+    row["surface_visible_mean_m"] = Mean(to_truth_m_);
+    row["surface_visible_p95_m"] = Quantile(to_truth_m_, 0.95);
+  }
+
+ private:
+  static void Append(const std::vector<double>& distances, std::vector<double>& all) {
+    all.insert(all.end(), distances.begin(), distances.end());
+  }
+
+  PinholeCamera camera_;
+  const std::vector<Triangle>& triangles_;
+  int every_;
+  ZBuffer zbuffer_;
+  PointCloud cloud_;
+  std::vector<double> to_observed_m_, to_truth_m_;
+};
+
 void ScoreSurface(const SequenceReader& sequence, const EstimateReader& estimate,
-                  RunRecord& record) {
+                  const ScoreSettings& settings, RunRecord& record) {
+  ReconstructionWatch reconstruction(sequence, estimate, settings.reconstruction_every);
+  TriangleMesh true_surface = sequence.true_rest_mesh();
   TurnWatch turns(sequence, estimate);
   const RestCorrespondence correspondence(estimate.rest_mesh(), sequence.true_rest_mesh());
   const PinholeCamera& camera = sequence.info().camera;
   ZBuffer zbuffer(camera);
   for (int frame = 0; frame < sequence.info().frames; ++frame) {
-    const std::vector<Vector3f> true_vertices = sequence.ReadTrueVertices(frame);
-    const std::vector<Vector3f> truth = correspondence.TruePositions(true_vertices);
-    const DepthImage& rendered = zbuffer.Render(true_vertices, sequence.true_rest_mesh().triangles);
+    true_surface.vertices = sequence.ReadTrueVertices(frame);
+    const std::vector<Vector3f> truth = correspondence.TruePositions(true_surface.vertices);
+    const DepthImage& rendered = zbuffer.Render(true_surface.vertices, true_surface.triangles);
     const std::vector<Vector3f> estimated = estimate.ReadVertices(frame);
     turns.Add(estimated, truth);
+    reconstruction.Add(frame, estimated, sequence.ReadDepth(frame), true_surface);
     const std::vector<double> errors_m = VertexErrors(estimated, truth);
     const VertexErrorSummary error =
         Summarize(errors_m, VisiblePoints(truth, rendered, camera, kVisibleWithin_m));
@@ -126,13 +183,17 @@ void ScoreSurface(const SequenceReader& sequence, const EstimateReader& estimate
     record.frames["l2_max_hidden_m"].push_back(error.hidden_max_m);
   }
   turns.Summarize(record.summary);
+  reconstruction.Summarize(record.summary);
 }
 
 JointErrorsByClass ScoreJoints(const SequenceReader& sequence, const EstimateReader& estimate,
                                RunRecord& record) {
   JointErrorsByClass errors;
+  std::vector<std::vector<Vector3d>> estimates, truths;
   for (int frame = 0; frame < sequence.info().frames; ++frame) {
     const JointTruth& truth = sequence.true_joints(frame);
+    estimates.push_back(estimate.frames()[frame].joints);
+    truths.push_back(truth.positions);
     const std::vector<double> frame_errors =
         JointErrors(estimate.frames()[frame].joints, truth.positions);
     for (std::size_t j = 0; j < frame_errors.size(); ++j) {
@@ -143,6 +204,8 @@ JointErrorsByClass ScoreJoints(const SequenceReader& sequence, const EstimateRea
     record.frames["joint_error_mean_m"].push_back(Mean(frame_errors));
     record.frames["joint_error_max_m"].push_back(Maximum(frame_errors));
   }
+  for (const std::vector<double>& frame_errors : JointErrorsLessOffset(estimates, truths))
+    errors.less_offset.insert(errors.less_offset.end(), frame_errors.begin(), frame_errors.end());
   return errors;
 }
 
@@ -221,6 +284,8 @@ void SummarizeRun(const JointErrorsByClass& joints, RunRecord& record) {
   row["joint_error_mean_hidden_m"] = Mean(joints.hidden);
   row["joint_error_max_m"] = Maximum(joints.all);
   row["joints_within_10cm"] = ShareWithin(joints.all, kJointThreshold_m);
+  row["joints_within_10cm_less_offset"] = ShareWithin(joints.less_offset, kJointThreshold_m);
+  row["joint_auc_30cm"] = Mean(record.joint_accuracy.at("all"));
   row["frame_ms_median"] = Quantile(frame_ms, 0.5);
   row["frame_ms_p95"] = Quantile(frame_ms, 0.95);
   row["frame_ms_max"] = Maximum(frame_ms);
@@ -234,10 +299,22 @@ void SummarizeRun(const JointErrorsByClass& joints, RunRecord& record) {
 
 }  // namespace
 
-void ScoreRun(const SequenceReader& sequence, const EstimateReader& estimate, RunRecord& record) {
+void ScoreSettings::Describe(Fields& f) {
+  f.Integer(
+      "reconstruction_every", reconstruction_every,
+      {.meaning = "every how many frames visible vertices are held against the observed points "
+                  "and against the true surface; 0 is never",
+       .unit = "frames",
+       .min = 0,
+       .max = 1e6,
+       .origin = Origin::kInput});
+}
+
+void ScoreRun(const SequenceReader& sequence, const EstimateReader& estimate,
+              const ScoreSettings& settings, RunRecord& record) {
   RequireMatch(sequence, estimate);
   record.diagonal_m = BoundingBoxDiagonal(sequence.true_rest_mesh().vertices);
-  ScoreSurface(sequence, estimate, record);
+  ScoreSurface(sequence, estimate, settings, record);
   const JointErrorsByClass joints = ScoreJoints(sequence, estimate, record);
   RecordOutcomes(estimate, record);
   record.threshold_m = Thresholds(kCurveStep_m, kCurveLast_m);

@@ -1,6 +1,7 @@
 // Scores an estimate against its sequence: every metric of a run record, from stored files alone.
 #pragma once
 
+#include "core/settings.h"
 #include "records/estimate.h"
 #include "records/run_record.h"
 #include "sequence/sequence.h"
@@ -14,9 +15,16 @@ inline constexpr double kVisibleWithin_m = 0.01;
 inline constexpr double kJointThreshold_m = 0.1;
 inline constexpr double kCurveStep_m = 0.005, kCurveLast_m = 0.3;
 
+struct ScoreSettings {
+  int reconstruction_every = 0;  // frames; 0: not measured
+
+  void Describe(Fields& fields);
+};
+
 // Fills frames, curves, steps, diagonal and the summary's metrics of the record; what names the run
 // (ids, variant, scene, seed, config) is the caller's. Failed frames are in every mean.
 // DataError if the estimate and the sequence do not belong together.
-void ScoreRun(const SequenceReader& sequence, const EstimateReader& estimate, RunRecord& record);
+void ScoreRun(const SequenceReader& sequence, const EstimateReader& estimate,
+              const ScoreSettings& settings, RunRecord& record);
 
 }  // namespace vitruvia

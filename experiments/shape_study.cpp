@@ -191,8 +191,7 @@ Experiment PlanShapeStudy(const fs::path& file, const WorkFolders& work) {
   experiment.record.title = study->settings.title;
   experiment.record.description = study->settings.description;
   for (const ExpectationSettings& e : study->settings.expectations)
-    experiment.record.expectations.push_back(
-        {e.metric, e.paper, e.at_most, e.source, e.remark, e.not_comparable});
+    experiment.record.expectations.push_back(e.AsRecorded());
   const int first = study->learning.database.population.subjects - study->learning.held_out;
   for (std::size_t scan = 0; scan < study->scans.size(); ++scan) {
     for (int person = first; person < first + study->settings.people; ++person) {

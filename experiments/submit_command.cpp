@@ -26,7 +26,9 @@ constexpr int kMostJobsOfTask = 1024;
 constexpr std::chrono::milliseconds kAskSbatchAfter{20};
 
 constexpr const char* kSubmitFooter =
-    "Each task carries out one shard; all share one output folder, which every node must see.\n"
+    "Each task carries out one shard. All share one output folder, which every node must see and\n"
+    "lock files on (a local disk, NFS 4). Runs that are timed go alone on their node if nothing\n"
+    "else is scheduled there: --sbatch=--exclusive.\n"
     "vitruvia status and vitruvia report work on what has arrived; submitting again goes on.\n"
     "The same shards without a cluster:\n"
     "  parallel vitruvia run X.json --shard {}/8 ::: $(seq 8)       (GNU parallel)\n"

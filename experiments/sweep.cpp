@@ -9,6 +9,7 @@ namespace {
 
 constexpr const char* kMethodSettings = "method.settings.";
 constexpr int kMostSteps = 10000;
+constexpr double kMostPoints = 10000;
 
 std::vector<std::string> KeysOf(const std::string& setting) {
   std::vector<std::string> keys{""};
@@ -96,6 +97,7 @@ std::string SweepAxis::Problem() const {
                      std::none_of(keys.begin(), keys.end(), [](auto& k) { return k.empty(); });
   if (!named)
     return fmt::format("setting: expected scene.KEY… or method.settings.KEY…, got \"{}\"", setting);
+  if (setting == "scene.seed") return "setting: seeds have a list of their own: \"seeds\"";
   if (!values.is_array()) return "values: expected a list, got " + values.dump();
   for (const Json& value : values) {
     if (!value.is_primitive() || value.is_null())
@@ -126,6 +128,12 @@ std::string SweepSettings::Problem() const {
         return fmt::format("axes: the setting {} stands twice", axes[i].setting);
     }
   }
+  double points = 1.0;
+  for (const SweepAxis& axis : axes)
+    points *= std::max(static_cast<double>(axis.values.size()), 1.0 * axis.steps);
+  if (design == SweepDesign::kGrid && points > kMostPoints)
+    return fmt::format("axes: the grid has {:g} points, expected at most {:g}", points,
+                       kMostPoints);
   return "";
 }
 

@@ -45,7 +45,7 @@ RunRecord CarryOut(const RunPlan& run, const std::string& experiment, const fs::
                     {"seed", run.seed},
                     {"method", run.method_name}};
   if (run.repeat > 0) record.summary["repeat"] = run.repeat;
-  ScoreRun(sequence, EstimateReader(folder / run.run_id / "estimate"), record);
+  ScoreRun(sequence, EstimateReader(folder / run.run_id / "estimate"), run.score, record);
   return record;
 }
 

@@ -128,8 +128,7 @@ Experiment PlanWeightStudy(const fs::path& file, const WorkFolders& work) {
   experiment.record.title = study->settings.title;
   experiment.record.description = study->settings.description;
   for (const ExpectationSettings& e : study->settings.expectations)
-    experiment.record.expectations.push_back(
-        {e.metric, e.paper, e.at_most, e.source, e.remark, e.not_comparable});
+    experiment.record.expectations.push_back(e.AsRecorded());
   const Json resolved = WriteSettings(study->learning);
   const std::string hash = Hash64().Add(resolved.dump()).Hex().substr(0, 8);
   const int first = study->learning.database.population.subjects - study->learning.held_out;

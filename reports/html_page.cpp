@@ -70,7 +70,8 @@ std::string ComparisonRows(const Comparison& c) {
                       run.ours, run.difference)
                 : fmt::format("<td class=\"problem\" colspan=\"2\">{}</td>", Escaped(run.problem));
     rows += fmt::format("<td class=\"n\" data-label=\"target\">{}</td>{}</tr>\n",
-                        c.target.empty() ? "–" : "≤ " + c.target, VerdictCell(run.verdict));
+                        c.target.empty() ? "–" : (c.more_is_better() ? "≥ " : "≤ ") + c.target,
+                        VerdictCell(run.verdict));
   }
   return rows + "</tbody>\n";
 }

@@ -74,10 +74,12 @@ std::string LatexComparison(const ReportedExperiment& experiment) {
           run.problem.empty()
               ? fmt::format("{} & {}", LatexNumber(run.ours), LatexNumber(run.difference))
               : fmt::format("\\multicolumn{{2}}{{l}}{{{}}}", LatexEscaped(run.problem));
-      rows += fmt::format("\\texttt{{{}}} & {} & {} & {} & {} \\\\\n", LatexEscaped(run.run_id),
-                          LatexNumber(c.paper), result,
-                          c.target.empty() ? "--" : "$\\le$ " + LatexNumber(c.target),
-                          LatexVerdict(run.verdict));
+      rows += fmt::format(
+          "\\texttt{{{}}} & {} & {} & {} & {} \\\\\n", LatexEscaped(run.run_id),
+          LatexNumber(c.paper), result,
+          c.target.empty() ? "--"
+                           : (c.more_is_better() ? "$\\ge$ " : "$\\le$ ") + LatexNumber(c.target),
+          LatexVerdict(run.verdict));
     }
   }
   return "\\begin{tabular}{lrrrrl}\n\\toprule\n"
@@ -125,9 +127,11 @@ std::string ToCsv(const ReportedExperiment& experiment) {
     for (const nlohmann::json& cell : row.cells) csv += CsvCell(cell) + ",";
     csv += CsvCell(CsvStatus(row.problem));
     for (const Expectation& e : experiment.record.expectations) {
-      csv += fmt::format(",{},", CsvCell(nlohmann::json(e.paper)));
       const auto& record = experiment.runs[r].record;
-      if (record && record->summary.contains(e.metric) && record->summary[e.metric].is_number()) {
+      const bool about = !record || e.IsAbout(record->scene);
+      csv += fmt::format(",{},", about ? CsvCell(nlohmann::json(e.paper)) : "");
+      if (about && record && record->summary.contains(e.metric) &&
+          record->summary[e.metric].is_number()) {
         csv += CsvCell(nlohmann::json(record->summary[e.metric].get<double>() - e.paper));
       }
     }

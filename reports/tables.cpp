@@ -58,10 +58,14 @@ ComparedRun Compare(const ReportedRun& run, const Expectation& e, const MetricNa
   if (std::isnan(ours)) return compared;
   compared.ours = Printed(ours, metric);
   if (!std::isnan(e.paper)) compared.difference = PrintedSigned(ours - e.paper, metric);
-  compared.verdict = !e.not_comparable.empty() ? Verdict::kNotComparable
-                     : std::isnan(e.at_most)   ? Verdict::kNoTarget
-                     : ours <= e.at_most       ? Verdict::kMet
-                                               : Verdict::kMissed;
+  if (!e.not_comparable.empty())
+    compared.verdict = Verdict::kNotComparable;
+  else if (!std::isnan(e.at_most))
+    compared.verdict = ours <= e.at_most ? Verdict::kMet : Verdict::kMissed;
+  else if (!std::isnan(e.at_least))
+    compared.verdict = ours >= e.at_least ? Verdict::kMet : Verdict::kMissed;
+  else
+    compared.verdict = Verdict::kNoTarget;
   return compared;
 }
 
@@ -72,8 +76,10 @@ std::vector<Comparison> CompareWithPapers(const ReportedExperiment& experiment) 
   for (const Expectation& e : experiment.record.expectations) {
     Comparison comparison{e, NameOfMetric(e.metric), "", "", {}};
     comparison.paper = std::isnan(e.paper) ? "–" : Printed(e.paper, comparison.metric);
-    if (!std::isnan(e.at_most)) comparison.target = Printed(e.at_most, comparison.metric);
+    const double target = comparison.more_is_better() ? e.at_least : e.at_most;
+    if (!std::isnan(target)) comparison.target = Printed(target, comparison.metric);
     for (const ReportedRun& run : experiment.runs) {
+      if (run.record && !e.IsAbout(run.record->scene)) continue;
       comparison.runs.push_back(Compare(run, e, comparison.metric));
     }
     comparisons.push_back(std::move(comparison));

@@ -1,6 +1,7 @@
 // The report's tables as plain text cells, and their CSV and LaTeX forms.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct Comparison {
   MetricName metric;
   std::string paper, target;  // printed; target "" where there is none
   std::vector<ComparedRun> runs;
+
+  bool more_is_better() const { return !std::isnan(expectation.at_least); }
 };
 std::vector<Comparison> CompareWithPapers(const ReportedExperiment& experiment);
 

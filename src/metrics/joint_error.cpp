@@ -20,6 +20,36 @@ std::vector<double> JointErrors(const std::vector<Vector3<double>>& estimate,
   return errors;
 }
 
+std::vector<std::vector<double>> JointErrorsLessOffset(
+    const std::vector<std::vector<Vector3<double>>>& estimates,
+    const std::vector<std::vector<Vector3<double>>>& truths) {
+  Require(estimates.size() == truths.size(),
+          "JointErrorsLessOffset: {} estimated and {} true frames", estimates.size(),
+          truths.size());
+  if (estimates.empty()) return {};
+  const std::size_t joints = estimates.front().size();
+  std::vector<Vector3<double>> sums(joints, Vector3<double>::Zero());
+  std::vector<int> counts(joints, 0);
+  for (std::size_t f = 0; f < estimates.size(); ++f) {
+    Require(estimates[f].size() == joints && truths[f].size() == joints,
+            "JointErrorsLessOffset: frame {} has {} estimated and {} true joints, the first has {}",
+            f, estimates[f].size(), truths[f].size(), joints);
+    for (std::size_t j = 0; j < joints; ++j) {
+      const Vector3<double> offset = estimates[f][j] - truths[f][j];
+      if (!offset.allFinite()) continue;
+      sums[j] += offset;
+      ++counts[j];
+    }
+  }
+  std::vector<std::vector<double>> errors;
+  for (std::size_t f = 0; f < estimates.size(); ++f) {
+    std::vector<Vector3<double>> aligned = estimates[f];
+    for (std::size_t j = 0; j < joints; ++j) aligned[j] -= sums[j] / std::max(counts[j], 1);
+    errors.push_back(JointErrors(aligned, truths[f]));
+  }
+  return errors;
+}
+
 double ShareWithin(const std::vector<double>& errors_m, double threshold_m) {
   if (errors_m.empty()) return 0.0;
   const auto within = std::count_if(errors_m.begin(), errors_m.end(),

@@ -1,5 +1,7 @@
 #include "records/run_record.h"
 
+#include <algorithm>
+
 #include "core/files.h"
 #include "records/json_node.h"
 
@@ -67,7 +69,9 @@ Expectation ParseExpectation(const JsonNode& node) {
           node.At("at_most").NumberOr(kNoValue),
           node.At("source").Text(),
           node.At("remark").Text(),
-          node.json().contains("not_comparable") ? node.At("not_comparable").Text() : ""};
+          node.json().contains("not_comparable") ? node.At("not_comparable").Text() : "",
+          node.At("at_least").NumberOr(kNoValue),
+          node.At("scenes").List([](const JsonNode& scene) { return scene.Text(); })};
 }
 
 RunRecord ParseRunRecord(const JsonNode& node) {
@@ -110,13 +114,19 @@ ExperimentRecord ParseExperimentRecord(const JsonNode& node) {
 
 }  // namespace
 
+bool Expectation::IsAbout(const std::string& scene) const {
+  return scenes.empty() || std::find(scenes.begin(), scenes.end(), scene) != scenes.end();
+}
+
 void to_json(Json& json, const Expectation& e) {
   json = {{"metric", e.metric},
           {"paper", FiniteOrNull(e.paper, e.metric + ".paper")},
           {"at_most", FiniteOrNull(e.at_most, e.metric + ".at_most")},
           {"source", e.source},
           {"remark", e.remark},
-          {"not_comparable", e.not_comparable}};
+          {"not_comparable", e.not_comparable},
+          {"at_least", FiniteOrNull(e.at_least, e.metric + ".at_least")},
+          {"scenes", e.scenes}};
 }
 
 void from_json(const Json& json, Expectation& e) {

@@ -5,11 +5,12 @@
 //   summary.json           { "experiment", "rows": [ one flat object per run ] }
 //   <run id>/record.json   RunRecord
 //   <run id>/estimate/     see estimate.h
-//   <run id>/status, log   "done" or what went wrong; the run's own messages
+//   <run id>/status, log   "done KEY", or "failed KEY" and why; the run's own messages
 //   report.html, table.csv, table.tex, figures/*.png, figures/*.svg
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -26,6 +27,10 @@ struct Expectation {
   std::string source;            // "paper A, figure 11"
   std::string remark;            // how the work differs
   std::string not_comparable{};  // why ours says nothing about the paper's; "": it does
+  double at_least = std::numeric_limits<double>::quiet_NaN();  // a target from the other side
+  std::vector<std::string> scenes{};                           // that it is about; empty: all
+
+  bool IsAbout(const std::string& scene) const;
 
   friend void to_json(nlohmann::json& json, const Expectation& e);
   friend void from_json(const nlohmann::json& json, Expectation& e);

@@ -234,20 +234,24 @@ void RecordSequence(const SceneSettings& settings, const BodyModel& truth, const
         if (is_dressed) garment.Dress(sample.pose, t, dressed.rest.vertices);
         return Pose(dressed, sample, settings.truth.skinning, camera_from_subject);
       };
+      const auto rendered_at = [&](double t, const PosedBody& body) {
+        TriangleMesh seen{body.vertices, truth.rest.triangles};
+        AddOccluder(settings.occluder, t, camera_from_subject, seen);
+        return renderer.Render(seen.vertices, seen.triangles);
+      };
       const PosedBody posed = posed_at(time_s);
       RequireInRange(posed.vertices, frame);
       watch.Look(posed.vertices, frame);
       misfit.Add(posed);
-      const DepthImage true_depth = renderer.Render(posed.vertices, truth.rest.triangles);
+      const DepthImage true_depth = rendered_at(time_s, posed);
       const JointTruth joints{posed.joints, VisibleJoints(posed.joints, true_depth, camera)};
       RandomStream noise(seed, fmt::format("sensor/{}", frame));
       const double capture_time_s = CaptureTime(settings.sensor.delivery, time_s);
       DepthImage measured(camera.width, camera.height);
       if (!lost[frame]) {
-        const DepthImage captured =
-            capture_time_s == time_s
-                ? true_depth
-                : renderer.Render(posed_at(capture_time_s).vertices, truth.rest.triangles);
+        const DepthImage captured = capture_time_s == time_s
+                                        ? true_depth
+                                        : rendered_at(capture_time_s, posed_at(capture_time_s));
         measured = Measure(captured, camera, settings.sensor, noise);
       }
       writer.Append(measured, posed.vertices, joints);

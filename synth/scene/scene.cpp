@@ -70,6 +70,7 @@ void SceneSettings::Describe(Fields& f) {
   f.Section("truth", truth, {.meaning = "the true surface, which is rendered"});
   f.Section("subject", subject, {.meaning = "the template that a tracker is given"});
   f.Section("view", view, {.meaning = "the camera and where it stands"});
+  f.Section("occluder", occluder, {.meaning = "what walks past between camera and subject"});
   f.Section("sensor", sensor, {.meaning = "what the camera makes of true depth"});
   f.Integer("frames", frames, {.meaning = "length of the sequence", .min = 1, .max = 100000});
   f.Number("fps", fps,

@@ -10,6 +10,7 @@
 #include "synth/bodies/body_source.h"
 #include "synth/cloth/garment.h"
 #include "synth/motions/motion.h"
+#include "synth/scene/occluder.h"
 #include "synth/sensor/sensor.h"
 
 namespace vitruvia {
@@ -44,6 +45,7 @@ struct SceneSettings {
   TruthSettings truth;         // the surface that is rendered
   RefinementSettings subject;  // the template that a tracker is given
   ViewSettings view;
+  OccluderSettings occluder;  // none by default
   SensorSettings sensor;
   int frames = 300;
   double fps = 30.0;

@@ -8,50 +8,14 @@
 
 #include "core/error.h"
 #include "dynamic_fixtures.h"
-#include "geometry/zbuffer.h"
 #include "methods/dynamic/pose_solver.h"
-#include "synth/bodies/body_source.h"
+#include "support/arm_stage.h"
 
 namespace vitruvia::dynamic {
 namespace {
 
-BodyModel Mannequin() {
-  RefinementSettings refinement;
-  refinement.subdivisions = 2;  // about 6,400 vertices: as dense as a small image's pixels
-  return Refine(MakeControlBody(BodySettings{}), refinement);
-}
-
-// A mannequin with its left arm lowered and its right elbow bent by some angle, before the camera.
-class Stage {
- public:
-  std::vector<Vector3f> Vertices(double angle_rad) const {
-    JointPose pose = JointPose::Rest(body.skeleton);
-    const auto turn = [&](BoneId bone, const Vector3d& axis) {
-      pose.local_rotations[static_cast<int>(bone)] = ExpSo3<double>(angle_rad * axis);
-    };
-    turn(BoneId::kLeftUpperArm, -Vector3d::UnitZ());
-    turn(BoneId::kRightForearm, Vector3d::UnitY());
-    BoneTransforms bones = ForwardKinematics(body.skeleton, pose);
-    for (Rigidd& bone : bones) bone = CameraFromStart() * bone;
-    std::vector<Vector3f> vertices;
-    SkinDualQuaternion(body.rest.vertices, body.weights, bones, vertices);
-    return vertices;
-  }
-
-  DepthFrame Frame(int index, double angle_rad) {
-    return {index, index / 30.0, zbuffer.Render(Vertices(angle_rad), body.rest.triangles)};
-  }
-
-  double MeanError(const TrackResult& result, double angle_rad) const {
-    const std::vector<Vector3f> truth = Vertices(angle_rad);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < truth.size(); ++i) sum += (truth[i] - result.vertices[i]).norm();
-    return sum / static_cast<double>(truth.size());
-  }
-
-  const BodyModel body = Mannequin();
-  const PinholeCamera camera;
-  ZBuffer zbuffer{camera};
+struct Stage : ArmStage {
+  Stage() : ArmStage(2, SkinDualQuaternion, CameraFromStart()) {}
 };
 
 TEST(Dynamic, FollowsAMovingArmInEveryMode) {

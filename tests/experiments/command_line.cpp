@@ -1,9 +1,11 @@
 #include "experiments/command_line.h"
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include "core/files.h"
-#include "experiments/commands.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -19,11 +21,19 @@ Json RowWithoutClock(Json row) {
 }  // namespace
 
 CallResult CallVitruvia(const std::vector<std::string>& arguments) {
-  std::vector<const char*> argv = {"vitruvia"};
-  for (const std::string& argument : arguments) argv.push_back(argument.c_str());
+  std::vector<char*> argv = {const_cast<char*>(VITRUVIA_PROGRAM)};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
-  const int code = RunCommandLine(static_cast<int>(argv.size()), argv.data());
+  const pid_t process = fork();
+  if (process == 0) {
+    execv(VITRUVIA_PROGRAM, argv.data());
+    _exit(-1);
+  }
+  int status = 0;
+  waitpid(process, &status, 0);
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return {code, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
 }
 

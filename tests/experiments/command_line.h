@@ -15,7 +15,7 @@ struct CallResult {
   std::string out, error;
 };
 
-// `vitruvia arguments…`, in this process.
+// The program itself, called with these arguments.
 CallResult CallVitruvia(const std::vector<std::string>& arguments);
 
 // Expects that exit code and all of the words in what is said on standard error.

@@ -103,7 +103,7 @@ TEST_F(CommandLine, TruthAsEstimateScoresExactlyZeroAndEverything) {
   }
   writer.Finish();
   RunRecord record;
-  ScoreRun(sequence, EstimateReader(folder_ / "truth"), record);
+  ScoreRun(sequence, EstimateReader(folder_ / "truth"), ScoreSettings(), record);
   EXPECT_EQ(record.summary.at("l2_mean_m"), 0.0);
   EXPECT_EQ(record.summary.at("l2_max_of_diagonal"), 0.0);
   EXPECT_EQ(record.summary.at("joint_error_mean_m"), 0.0);

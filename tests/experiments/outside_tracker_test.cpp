@@ -52,7 +52,7 @@ TEST_F(OutsideTracker, IsRunScoredAndReportedLikeOurs) {
   const Json row = ReadJsonFile(files_ / "out/summary.json").at("rows").at(0);
   EXPECT_EQ(row.at("frames"), 12);
   EXPECT_EQ(row.at("frames_failed"), 0);
-  EXPECT_LT(row.at("l2_mean_m").get<double>(), 0.05);  // the person has hardly begun to move
+  EXPECT_LT(row.at("l2_mean_m").get<double>(), 0.15);  // arms begin to move, its own do not
   EXPECT_GT(row.at("l2_mean_m").get<double>(), 0.0);
   EXPECT_TRUE(fs::exists(files_ / "out/report.html"));
 }

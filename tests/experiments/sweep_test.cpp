@@ -95,6 +95,13 @@ TEST(Sweep, ImpossibleOnesAreRefused) {
               HasSubstr("a range has at least its two ends, got 1"));
   EXPECT_THAT(Refusal(OneAxis({{"setting", "scene.x"}, {"to", 3}, {"steps", 2}, {"scale", "log"}})),
               HasSubstr("expected positive ends, got 0 and 3"));
+  EXPECT_THAT(Refusal(OneAxis({{"setting", "scene.seed"}, {"values", {1}}})),
+              HasSubstr("seeds have a list of their own"));
+  const Json many = {{"setting", "scene.x"}, {"to", 1}, {"steps", 200}};
+  Json more = many;
+  more["setting"] = "scene.y";
+  EXPECT_THAT(Refusal({{"axes", {many, more}}}),
+              HasSubstr("the grid has 40000 points, expected at most 10000"));
   const Json axis = {{"setting", "scene.x"}, {"values", {1}}};
   EXPECT_THAT(Refusal({{"axes", {axis, axis}}}), HasSubstr("the setting scene.x stands twice"));
 }
@@ -133,8 +140,14 @@ TEST(SweptExperiment, WhatItCannotNameIsRefused) {
            "did you mean \"axis_weight\"?"});
   refused(swept("method.settings.axis_weight", {-1}),
           {"variant \"default,axis_weight=-1\"", "expected a number in 0", "got -1"});
-  refused(swept("method.settings.axis_weight", {1, 1}), {"stands twice", "bad.json"});
+  refused(swept("method.settings.axis_weight", {1, 1}),
+          {"bad.json: the sweep makes two variants of the name default,axis_weight=1"});
+  refused(swept("scene.title", {"a b", "a_b"}), {"two variants of the name"});
   refused(swept("scene.title", {std::string(200, 'x')}), {"expected at most 200"});
+  Json large = swept("scene.fps", Json::array());
+  large["sweep"]["axes"][0] = {{"setting", "scene.fps"}, {"from", 1}, {"to", 9}, {"steps", 900}};
+  large["repeats"] = 1000;
+  refused(large, {"bad.json: stands for 900000 runs, expected at most 100000"});
   refused({{"repeats", 0}}, {"repeats: expected a whole number in 1"});
   refused({{"seeds", {1, 1}}}, {"stands twice"});
 }

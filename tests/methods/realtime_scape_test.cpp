@@ -7,52 +7,16 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "geometry/zbuffer.h"
 #include "methods/registry.h"
-#include "synth/bodies/body_source.h"
+#include "support/arm_stage.h"
 
 namespace vitruvia::realtime_scape {
 namespace {
 
 const Rigidd kCameraFromSubject{Vector3d(1, -1, -1).asDiagonal(), {0.05, 0.9, 2.8}};
 
-BodyModel Mannequin() {
-  RefinementSettings refinement;
-  refinement.subdivisions = 1;  // about 1,600 vertices: fast, and round where a person is
-  return Refine(MakeControlBody(BodySettings{}), refinement);
-}
-
-// A mannequin with its left arm lowered and its right elbow bent by some angle, before the camera.
-class Stage {
- public:
-  std::vector<Vector3f> Vertices(double angle_rad) const {
-    JointPose pose = JointPose::Rest(body.skeleton);
-    const auto turn = [&](BoneId bone, const Vector3d& axis) {
-      pose.local_rotations[static_cast<int>(bone)] = ExpSo3<double>(angle_rad * axis);
-    };
-    turn(BoneId::kLeftUpperArm, -Vector3d::UnitZ());
-    turn(BoneId::kRightForearm, Vector3d::UnitY());
-    BoneTransforms bones = ForwardKinematics(body.skeleton, pose);
-    for (Rigidd& bone : bones) bone = kCameraFromSubject * bone;
-    std::vector<Vector3f> vertices;
-    SkinLinear(body.rest.vertices, body.weights, bones, vertices);
-    return vertices;
-  }
-
-  DepthFrame Frame(int index, double angle_rad) {
-    return {index, index / 30.0, zbuffer.Render(Vertices(angle_rad), body.rest.triangles)};
-  }
-
-  double MeanError(const TrackResult& result, double angle_rad) const {
-    const std::vector<Vector3f> truth = Vertices(angle_rad);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < truth.size(); ++i) sum += (truth[i] - result.vertices[i]).norm();
-    return sum / static_cast<double>(truth.size());
-  }
-
-  const BodyModel body = Mannequin();
-  const PinholeCamera camera;
-  ZBuffer zbuffer{camera};
+struct Stage : ArmStage {
+  Stage() : ArmStage(1, SkinLinear, kCameraFromSubject) {}
 };
 
 TEST(RealtimeScape, FollowsAMovingArm) {
@@ -89,7 +53,7 @@ TEST(RealtimeScape, SaysLostWhenTheDataAreElsewhere) {
   DepthImage wall(320, 240, 6.0f);
   const TrackResult result = tracker.TrackFrame({1, 1 / 30.0, wall});
   EXPECT_EQ(result.outcome, Outcome::kLost);
-  EXPECT_NE(result.message.find("explains"), std::string::npos);
+  EXPECT_NE(result.message.find("confirms"), std::string::npos);
 }
 
 // Whatever a frame holds, the result is finite and the subject is found again afterwards.

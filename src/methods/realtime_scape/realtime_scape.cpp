@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "core/error.h"
 #include "core/timer.h"
@@ -13,6 +14,7 @@
 #include "methods/realtime_scape/inertia_term.h"
 #include "methods/realtime_scape/joint_term.h"
 #include "methods/realtime_scape/placement.h"
+#include "methods/realtime_scape/pose_step.h"
 #include "methods/realtime_scape/prediction.h"
 
 namespace vitruvia::realtime_scape {
@@ -28,39 +30,20 @@ enum TimedStep {
   kAssemble,
   kSolve,
   kUpdate,
+  kRecover,
   kStepCount
 };
 constexpr std::array<const char*, kStepCount> kStepNames = {
-    "2 kd-tree of P", "5 render",   "6 kd-tree of V", "7 classify",
-    "8 correspond",   "9 assemble", "10 solve",       "11 update"};
+    "2 kd-tree of P", "5 render", "6 kd-tree of V", "7 classify", "8 correspond",
+    "9 assemble",     "10 solve", "11 update",      "recover"};
 
 constexpr std::array<const char*, 4> kEnergyNames = {"fit", "joint", "inertia", "axis"};
 
-// Whether some bone's rotation is none any more, beyond what a linear update may do in a frame, or
-// a bone has left for where no camera looks.
-bool IsTornApart(const BodyPose& pose) {
-  constexpr double kLargestStretch = 0.5, kFarthest_m = 100.0;
-  return !std::all_of(pose.begin(), pose.end(), [](const BonePose& bone) {
-    const Matrix3<double> product = bone.rotation.transpose() * bone.rotation;
-    return (product - Matrix3<double>::Identity()).norm() <= kLargestStretch &&
-           bone.center.norm() <= kFarthest_m;
-  });
-}
-
-Matrix3<double> Turned(const Matrix3<double>& rotation, const Vector3d& step,
-                       RotationUpdate update) {
-  const Matrix3<double> linear = rotation + Skew<double>(step) * rotation;
-  switch (update) {
-    case RotationUpdate::kLinear:
-      return linear;
-    case RotationUpdate::kLinearOrthonormal:
-      return NearestRotation(linear);
-    case RotationUpdate::kExponential:
-      break;
-  }
-  // Rounding errors of many steps would add up.
-  return NearestRotation<double>(ExpSo3<double>(step) * rotation);
-}
+// Where the body is and how it came there.
+struct Course {
+  BodyPose pose, last_pose, before_last_pose;
+  BoneSight sight;
+};
 
 }  // namespace
 
@@ -70,7 +53,8 @@ struct RealtimeScape::Session {
         model(subject),
         joint_term(model, settings.joint_rows),
         rasterizer(MakeRasterizer(settings.fit.rasterizer, view)),
-        sight(model),
+        course{{}, {}, {}, BoneSight(model)},
+        recovery(settings.recovery),
         candidate_finder(model),
         near_cloud(MakeNearestNeighbors(settings.fit.association, view, settings.fit.window_px)),
         near_candidates(
@@ -86,8 +70,8 @@ struct RealtimeScape::Session {
 
   // What is carried from frame to frame.
   bool placed = false;
-  BodyPose pose, last_pose, before_last_pose;
-  BoneSight sight;
+  Course course;
+  Recovery recovery;
 
   // Workspace, reused from frame to frame.
   int iteration = 0;
@@ -128,10 +112,22 @@ void RealtimeScape::Start(const Subject& subject, const PinholeCamera& camera) {
 TrackResult RealtimeScape::TrackFrame(const DepthFrame& frame) {
   Require(session_ != nullptr, "TrackFrame called before Start");
   const bool first = !session_->placed;
-  if (!BeginFrame(frame)) return Result(false, 0);
+  if (!BeginFrame(frame)) {
+    session_->recovery.NoteEmptyFrame();
+    return Result(false, 0);
+  }
 
   const int limit =
       first ? settings_.stopping.first_frame_iterations : settings_.stopping.max_iterations;
+  const bool stopped_small = Iterate(frame, limit);
+  const int iterations = session_->iteration;
+  if (session_->recovery.Note(CurrentAgreement(), session_->course.pose)) TryOtherPoses(frame);
+  EndFrame();
+  return Result(stopped_small, iterations);
+}
+
+// Lines 4 to 12. True if the stopping rule was met.
+bool RealtimeScape::Iterate(const DepthFrame& frame, int limit) {
   int& iteration = session_->iteration;
   bool stopped_small = false;
   for (iteration = 0; iteration < limit && !stopped_small && session_->solved; ++iteration) {
@@ -143,8 +139,94 @@ TrackResult RealtimeScape::TrackFrame(const DepthFrame& frame) {
     Solve();
     stopped_small = IsSmall(Update());
   }
-  EndFrame();
-  return Result(stopped_small, iteration);
+  return stopped_small;
+}
+
+Agreement RealtimeScape::CurrentAgreement() const {
+  const Session& s = *session_;
+  return MeasureAgreement(s.cloud.points.size(), s.unexplained.size(), s.visible.size(),
+                          s.fit.classes);
+}
+
+// Puts the body into that pose, as if it had always been in it.
+void RealtimeScape::StartFrom(const BodyPose& pose) {
+  Session& s = *session_;
+  s.course.pose = s.course.last_pose = s.course.before_last_pose = pose;
+  s.expected = LocalRotationsOf(pose);
+  s.solved = true;
+  s.course.sight.Forget();
+  PoseSurface(s.model, s.course.pose, s.surface);
+}
+
+Agreement RealtimeScape::Compare(const DepthFrame& frame, const BodyPose& pose) {
+  StartFrom(pose);
+  session_->iteration = 0;
+  Render();
+  Classify(frame);
+  return CurrentAgreement();
+}
+
+// The pose moved so that what the camera sees of it lies on the cloud.
+BodyPose RealtimeScape::OnCloud(BodyPose pose) {
+  constexpr int kRounds = 2;  // what is visible changes as it moves
+  Session& s = *session_;
+  const auto add = [](const Vector3d& sum, const Vector3f& p) -> Vector3d {
+    return sum + p.cast<double>();
+  };
+  const auto points = static_cast<double>(s.cloud.points.size());
+  const Vector3d observed = std::accumulate(s.cloud.points.begin(), s.cloud.points.end(),
+                                            Vector3d(Vector3d::Zero()), add) /
+                            points;
+  for (int round = 0; round < kRounds; ++round) {
+    StartFrom(pose);
+    s.iteration = 0;
+    Render();
+    Vector3d seen = Vector3d::Zero();
+    for (const int v : s.visible) seen = add(seen, s.surface.vertices[v]);
+    const bool nothing = s.visible.empty();
+    seen = nothing ? pose.front().center : Vector3d(seen / static_cast<double>(s.visible.size()));
+    pose = Shifted(pose, observed - seen);
+  }
+  return pose;
+}
+
+// The best few of many poses get iterations; the best of those is kept if it agrees clearly better.
+void RealtimeScape::TryOtherPoses(const DepthFrame& frame) {
+  Session& s = *session_;
+  struct Tried {
+    BodyPose pose;
+    Agreement agreement;
+  };
+  const auto by_score = [](const Tried& a, const Tried& b) {
+    return a.agreement.score() > b.agreement.score();
+  };
+  const Course course = s.course;
+  const Agreement agreement = CurrentAgreement();
+  std::vector<Tried> tried;
+  for (const BodyPose& hypothesis : s.recovery.Hypotheses(course.pose)) {
+    const BodyPose pose = OnCloud(hypothesis);
+    for (const double aside_m : {0.0, -0.3, 0.3}) {  // part of the body may be out of the image
+      const BodyPose there = Shifted(pose, {aside_m, 0.0, 0.0});
+      tried.push_back({there, Compare(frame, there)});
+    }
+  }
+  std::stable_sort(tried.begin(), tried.end(), by_score);
+  tried.resize(std::min(tried.size(), static_cast<std::size_t>(settings_.recovery.tried)));
+  for (Tried& candidate : tried) {
+    StartFrom(candidate.pose);
+    Iterate(frame, settings_.stopping.first_frame_iterations);
+    const BodyPose reached = s.course.pose;
+    candidate = {reached, Compare(frame, reached)};
+  }
+  const Tried& best = *std::min_element(tried.begin(), tried.end(), by_score);
+  const bool is_better = s.recovery.IsBetter(best.agreement, agreement);
+  Compare(frame, is_better ? best.pose : course.pose);
+  if (is_better) {
+    s.recovery.Found(best.agreement);
+  } else {
+    s.course = course;
+  }
+  s.Lap(kRecover);
 }
 
 // Lines 1 and 2: the pose to start from; the points P. False if there are none.
@@ -171,21 +253,21 @@ void RealtimeScape::Place() {
   Session& s = *session_;
   const Rigidd camera_from_subject =
       PlaceRestPose(s.model, s.cloud, s.camera, settings_.fit, settings_.placement, *s.rasterizer);
+  BodyPose pose;
   for (int j = 0; j < kBoneCount; ++j) {
-    s.pose[j] = {camera_from_subject.rotation, camera_from_subject * s.model.rest_centers[j]};
+    pose[j] = {camera_from_subject.rotation, camera_from_subject * s.model.rest_centers[j]};
   }
-  s.last_pose = s.before_last_pose = s.pose;
-  s.sight.Forget();
+  StartFrom(pose);
   s.placed = true;
 }
 
 void RealtimeScape::Predict() {
   Session& s = *session_;
-  const Prediction prediction =
-      PredictPose(s.model, s.last_pose, s.before_last_pose, s.sight, settings_.motion);
-  s.pose = prediction.pose;
+  const Prediction prediction = PredictPose(s.model, s.course.last_pose, s.course.before_last_pose,
+                                            s.course.sight, settings_.motion);
+  s.course.pose = prediction.pose;
   s.expected = prediction.local_rotations;
-  PoseSurface(s.model, s.pose, s.surface);
+  PoseSurface(s.model, s.course.pose, s.surface);
 }
 
 // Line 5.
@@ -207,7 +289,7 @@ void RealtimeScape::Classify(const DepthFrame& frame) {
                                   settings_.fit.behind_surface};
   ClassifyVertices(s.surface.vertices, s.visible, frame.depth, s.camera, nearness, s.fit.classes);
   FindUnexplainedPoints(s.cloud, *s.rendered, nearness, s.unexplained);
-  s.sight.Count(s.model, s.visible, s.fit.classes);
+  s.course.sight.Count(s.model, s.visible, s.fit.classes);
   s.Lap(kClassify);
 }
 
@@ -215,8 +297,8 @@ void RealtimeScape::Classify(const DepthFrame& frame) {
 void RealtimeScape::BuildCandidates() {
   Session& s = *session_;
   s.searching = s.unexplained;
-  s.candidate_finder.Find(s.model, s.surface, s.visible, s.sight, settings_.search, s.candidates,
-                          s.settled);
+  s.candidate_finder.Find(s.model, s.surface, s.visible, s.course.sight, settings_.search,
+                          s.candidates, s.settled);
   const auto build = [&](const std::vector<int>& vertices, NearestNeighbors& neighbors) {
     s.positions.clear();
     for (const int i : vertices) s.positions.push_back(s.surface.vertices[i]);
@@ -236,7 +318,7 @@ void RealtimeScape::FindPairs() {
   Session& s = *session_;
   std::array<float, kBoneCount> reach;
   for (int j = 0; j < kBoneCount; ++j) {
-    reach[j] = static_cast<float>(ReachOf(j, s.sight, settings_.fit, settings_.search));
+    reach[j] = static_cast<float>(ReachOf(j, s.course.sight, settings_.fit, settings_.search));
   }
   s.fit.pairs.clear();
   s.pair_finder.VerticesToPoints(s.surface.vertices, s.fit.classes.elsewhere, s.cloud,
@@ -254,10 +336,11 @@ void RealtimeScape::Assemble() {
   Session& s = *session_;
   const double unit = settings_.length_unit_m;
   s.equations.Reset();
-  s.energies = {AddFitTerm(s.model, s.pose, s.camera, s.fit, settings_.fit, unit, s.equations),
-                s.joint_term.Add(s.model, s.pose, settings_.joint_weight, unit, s.equations),
-                AddInertiaTerm(s.pose, s.expected, settings_.inertia_weight, s.equations),
-                AddAxisTerm(s.pose, settings_.axis_weight, s.equations)};
+  s.energies = {
+      AddFitTerm(s.model, s.course.pose, s.camera, s.fit, settings_.fit, unit, s.equations),
+      s.joint_term.Add(s.model, s.course.pose, settings_.joint_weight, unit, s.equations),
+      AddInertiaTerm(s.course.pose, s.expected, settings_.inertia_weight, s.equations),
+      AddAxisTerm(s.course.pose, settings_.axis_weight, s.equations)};
   s.equations.AddDamping(settings_.solver.damping);
   s.equations.Symmetrize();
   s.Lap(kAssemble);
@@ -280,16 +363,17 @@ RealtimeScape::Step RealtimeScape::Update() {
     const Vector3d rotation = s.increment.segment<3>(kBlockSize * j);
     const Vector3d translation =
         settings_.length_unit_m * s.increment.segment<3>(kBlockSize * j + 3);
-    s.pose[j].rotation = Turned(s.pose[j].rotation, rotation, settings_.rotation_update);
-    s.pose[j].center += translation;
+    s.course.pose[j].rotation =
+        Turned(s.course.pose[j].rotation, rotation, settings_.rotation_update);
+    s.course.pose[j].center += translation;
     largest.rotation_rad = std::max(largest.rotation_rad, rotation.norm());
     largest.translation_m = std::max(largest.translation_m, translation.norm());
   }
-  if (!s.solved || IsTornApart(s.pose)) {
-    s.pose = s.last_pose;
+  if (!s.solved || IsTornApart(s.course.pose)) {
+    s.course.pose = s.course.last_pose;
     s.solved = false;
   }
-  PoseSurface(s.model, s.pose, s.surface);
+  PoseSurface(s.model, s.course.pose, s.surface);
   s.Lap(kUpdate);
   return largest;
 }
@@ -302,24 +386,22 @@ bool RealtimeScape::IsSmall(const Step& step) const {
 
 void RealtimeScape::EndFrame() {
   Session& s = *session_;
-  s.sight.EndFrame(settings_.search.seen_share);
-  s.before_last_pose = s.last_pose;
-  s.last_pose = s.pose;
+  s.course.sight.EndFrame(settings_.search.seen_share);
+  s.course.before_last_pose = s.course.last_pose;
+  s.course.last_pose = s.course.pose;
 }
 
 TrackResult RealtimeScape::Result(bool stopped_small, int iterations) {
   Session& s = *session_;
   TrackResult result;
-  const std::size_t points = s.cloud.points.size();
-  const double explained =
-      points == 0 ? 0.0
-                  : 1.0 - static_cast<double>(s.unexplained.size()) / static_cast<double>(points);
-  if (points == 0) {
+  const double presence = CurrentAgreement().presence();
+  if (s.cloud.points.empty()) {
     result.outcome = Outcome::kNoData;
     result.message = "the frame holds no measurement; the pose is carried over";
-  } else if (explained < settings_.lost_below) {
+  } else if (presence < settings_.lost_below || s.recovery.is_lost()) {
     result.outcome = Outcome::kLost;
-    result.message = fmt::format("the model explains {:.0f} % of the points", 100.0 * explained);
+    result.message = fmt::format("the frame confirms {:.0f} % of the model, usually {:.0f} %",
+                                 100.0 * presence, 100.0 * s.recovery.usual().presence());
   } else if (!s.solved) {
     result.outcome = Outcome::kLost;
     result.message = "the step has no solution or tears the body apart; the pose is carried over";

@@ -3,6 +3,8 @@
 
 #include <memory>
 
+#include "methods/realtime_scape/model.h"
+#include "methods/realtime_scape/recovery.h"
 #include "methods/realtime_scape/settings.h"
 #include "tracking/tracker.h"
 
@@ -35,6 +37,12 @@ class RealtimeScape final : public Tracker {
   void Solve();
   Step Update();
   bool IsSmall(const Step& step) const;
+  bool Iterate(const DepthFrame& frame, int limit);
+  Agreement CurrentAgreement() const;
+  void StartFrom(const BodyPose& pose);
+  Agreement Compare(const DepthFrame& frame, const BodyPose& pose);
+  BodyPose OnCloud(BodyPose pose);
+  void TryOtherPoses(const DepthFrame& frame);
   void EndFrame();
   TrackResult Result(bool stopped_small, int iterations);
 

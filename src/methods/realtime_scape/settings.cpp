@@ -303,6 +303,58 @@ void PlacementSettings::Describe(Fields& f) {
             .source = "the arms may hang a little from the T-pose"});
 }
 
+void RecoverySettings::Describe(Fields& f) {
+  constexpr const char* kSource = "paper A lists recovery as future work";
+  f.Integer("patience", patience,
+            {.meaning = "frames in a row that must agree badly before other poses are tried; 0: "
+                        "none ever is",
+             .unit = "frames",
+             .min = 0,
+             .max = 1e6,
+             .origin = Origin::kGuessed,
+             .source = kSource});
+  f.Integer("pause", pause,
+            {.meaning = "frames between two attempts",
+             .unit = "frames",
+             .min = 1,
+             .max = 1e6,
+             .origin = Origin::kGuessed,
+             .source = kSource});
+  f.Number("below", below,
+           {.meaning = "share of its usual level below which the agreement of model and frame is "
+                       "bad",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kGuessed,
+            .source = kSource});
+  f.Number("margin", margin,
+           {.meaning = "by how much the explained share of the cloud times the confirmed share of "
+                       "the model must rise for another pose to be taken",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kGuessed,
+            .source = kSource});
+  f.Integer("remembered", remembered,
+            {.meaning = "good poses that are kept to be tried",
+             .min = 1,
+             .max = 100,
+             .origin = Origin::kGuessed,
+             .source = kSource});
+  f.Number("apart_deg", apart_deg,
+           {.meaning = "mean turn of the joints by which kept poses differ",
+            .unit = "deg",
+            .min = 0,
+            .max = 180,
+            .origin = Origin::kGuessed,
+            .source = kSource});
+  f.Integer("tried", tried,
+            {.meaning = "the best of all poses that get iterations",
+             .min = 1,
+             .max = 1000,
+             .origin = Origin::kGuessed,
+             .source = kSource});
+}
+
 void Settings::Describe(Fields& f) {
   f.Section("cloud", cloud, {.meaning = "the observed points P"});
   f.Section("fit", fit, {.meaning = "term 1, goodness of fit"});
@@ -360,13 +412,16 @@ void Settings::Describe(Fields& f) {
   f.Section("stopping", stopping, {.meaning = "when a frame is done"});
   f.Section("solver", solver, {.meaning = "the linear solver"});
   f.Section("placement", placement, {.meaning = "how the rest pose is put onto the first frame"});
-  f.Number("lost_below", lost_below,
-           {.meaning =
-                "a frame is lost when less than this share of the cloud is explained by the model",
-            .min = 0,
-            .max = 1,
-            .origin = Origin::kGuessed,
-            .source = "paper A is silent"});
+  f.Section("recovery", recovery, {.meaning = "what is done when the subject is lost"});
+  f.Number(
+      "lost_below", lost_below,
+      {.meaning =
+           "a frame is lost when it confirms less than this share of the model's visible vertices "
+           "on which it has a say",
+       .min = 0,
+       .max = 1,
+       .origin = Origin::kGuessed,
+       .source = "paper A is silent"});
 }
 
 }  // namespace vitruvia::realtime_scape

@@ -115,6 +115,17 @@ struct PlacementSettings {
   void Describe(Fields& fields);
 };
 
+struct RecoverySettings {
+  int patience = 3;  // frames; 0: never
+  int pause = 5;     // frames
+  double below = 0.8;
+  double margin = 0.1;
+  int remembered = 8;
+  double apart_deg = 20.0;
+  int tried = 3;
+  void Describe(Fields& fields);
+};
+
 struct Settings {
   CloudSettings cloud;
   FitSettings fit;
@@ -129,6 +140,7 @@ struct Settings {
   StoppingSettings stopping;
   SolverSettings solver;
   PlacementSettings placement;
+  RecoverySettings recovery;
   double lost_below = 0.3;
   void Describe(Fields& fields);
 };
