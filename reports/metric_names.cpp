@@ -20,6 +20,7 @@ const std::array kKnown = {
     MetricName{"run_id", "run", "", 1.0, 0},
     MetricName{"frames", "frames", "", 1.0, 0},
     MetricName{"frames_failed", "failed frames", "", 1.0, 0},
+    MetricName{"frames_lost", "lost frames", "", 1.0, 1},
     MetricName{"l2_mean_m", "mean L2 error", "mm", 1e3, 2},
     MetricName{"l2_max_m", "maximum L2 error", "mm", 1e3, 1},
     MetricName{"l2_mean_of_diagonal", "mean L2 error / diagonal", "", 1.0, 5},

@@ -50,7 +50,7 @@ PairedRuns Paired(const Contender& reference, const Contender& other) {
   return paired;
 }
 
-// Those asked for, or the usual ones that some pair has.
+// Those asked for, or the usual ones that some pair has; counts of failures only if there are any.
 std::vector<std::string> MetricsToCompare(const std::vector<RunPair>& pairs,
                                           const std::vector<std::string>& asked) {
   const auto is_there = [&](const std::string& key) {
@@ -59,10 +59,16 @@ std::vector<std::string> MetricsToCompare(const std::vector<RunPair>& pairs,
              !std::isnan(MetricValue(*pair.other, key));
     });
   };
+  const auto says_something = [&](const std::string& key) {  // not 0 in all runs
+    return is_there(key) && std::any_of(pairs.begin(), pairs.end(), [&](const RunPair& pair) {
+             return MetricValue(*pair.reference, key) != 0.0 ||
+                    MetricValue(*pair.other, key) != 0.0;
+           });
+  };
   std::vector<std::string> metrics;
   if (asked.empty()) {
     std::copy_if(kComparedMetrics.begin(), kComparedMetrics.end(), std::back_inserter(metrics),
-                 is_there);
+                 says_something);
     return metrics;
   }
   for (const std::string& key : asked) {

@@ -1,5 +1,6 @@
 #include "gate/gate_reports.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -111,6 +112,19 @@ std::string NameList(const std::string& title, const std::vector<std::string>& n
   return text + "\n";
 }
 
+// On a busy machine slowdowns go unnoticed; who reads the summary has to know.
+std::string NoiseText(const GateOccasion& occasion) {
+  double noise = 0.0;
+  for (const GatedRun& run : occasion.measured.runs) {
+    const auto found = run.speed_noise.find(kWholeFrame);
+    if (found != run.speed_noise.end()) noise = std::max(noise, found->second);
+  }
+  return fmt::format(" (here up to ±{:.0f} % of a frame's time{})", 1e2 * noise,
+                     noise > occasion.tolerances.frame_time
+                         ? ": the machine was busy, and slowdowns of that size go unseen"
+                         : "");
+}
+
 std::string Runs(const std::vector<const Finding*>& findings) {
   std::set<std::string> runs;
   for (const Finding* finding : findings) runs.insert(finding->run);
@@ -189,11 +203,13 @@ std::string ToMarkdown(const GateOccasion& occasion, const Judgement& judgement)
   std::string text = fmt::format(
       "# {}: {}\n\n{}, commit `{}`, on {}. Baseline: commit `{}`, {}, on {}.\n\nTolerances: "
       "accuracy {:g} %, time of a frame {:g} %, of a step {:g} % (of those with {:g} % of a frame "
-      "and more). Times are multiples of the calibration kernel's, medians over the repeats.\n\n",
+      "and more). Times are multiples of the calibration kernel's, medians over the repeats; "
+      "where these spread wider, that is tolerated too{}.\n\n",
       occasion.name, Headline(judgement), occasion.date, occasion.commit, occasion.cpu,
       occasion.baseline.commit, occasion.baseline.date, occasion.baseline.cpu,
       1e2 * occasion.tolerances.accuracy, 1e2 * occasion.tolerances.frame_time,
-      1e2 * occasion.tolerances.step_time, 1e2 * occasion.tolerances.gated_step_share);
+      1e2 * occasion.tolerances.step_time, 1e2 * occasion.tolerances.gated_step_share,
+      NoiseText(occasion));
   if (!judgement.failures.empty()) {
     text += "## Failed\n\n";
     for (const auto& [run, reason] : judgement.failures)

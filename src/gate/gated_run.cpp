@@ -1,5 +1,6 @@
 #include "gate/gated_run.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -36,16 +37,19 @@ std::map<std::string, double> TimesOf(const RunRecord& run) {
   return times_ms;
 }
 
-std::map<std::string, double> MedianRatios(std::span<const RunRecord> repeats) {
+void MeasureSpeed(std::span<const RunRecord> repeats, GatedRun& gated) {
   std::map<std::string, std::vector<double>> ratios;
   for (const RunRecord& run : repeats) {
     const double calibration_ms = CalibrationOf(run);
     if (std::isnan(calibration_ms) || calibration_ms <= 0.0) continue;
     for (const auto& [name, ms] : TimesOf(run)) ratios[name].push_back(ms / calibration_ms);
   }
-  std::map<std::string, double> medians;
-  for (const auto& [name, values] : ratios) medians[name] = Quantile(values, 0.5);
-  return medians;
+  for (const auto& [name, values] : ratios) {
+    const double median = Quantile(values, 0.5);
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    gated.speed[name] = median;
+    gated.speed_noise[name] = median > 0.0 ? 0.5 * (*most - *least) / median : 0.0;
+  }
 }
 
 bool IsSame(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
@@ -75,7 +79,7 @@ GatedRun MakeGatedRun(const std::string& experiment, std::span<const RunRecord> 
       break;
     }
   }
-  gated.speed = MedianRatios(repeats);
+  MeasureSpeed(repeats, gated);
   std::vector<double> calibrations_ms;
   for (const RunRecord& repeat : repeats) {
     if (!std::isnan(CalibrationOf(repeat))) calibrations_ms.push_back(CalibrationOf(repeat));
@@ -94,6 +98,7 @@ nlohmann::json ToJson(const GatedRun& run) {
           {"accuracy", run.accuracy},
           {"unsteady", run.unsteady},
           {"speed", run.speed},
+          {"speed_noise", run.speed_noise},
           {"calibration_ms", run.calibration_ms}};
 }
 
@@ -109,6 +114,7 @@ GatedRun ParseGatedRun(const JsonNode& node) {
   run.accuracy = node.At("accuracy").Map(number);
   run.unsteady = node.At("unsteady").Texts();
   run.speed = node.At("speed").Map(number);
+  run.speed_noise = node.At("speed_noise").Map(number);
   run.calibration_ms = node.At("calibration_ms").Number();
   return run;
 }

@@ -26,6 +26,9 @@ struct GatedRun {
   // By name of what was timed ("frame", a step, "fit"): its time as a multiple of the calibration
   // kernel's in the same process (core/calibration.h), the median over the repeats.
   std::map<std::string, double> speed;
+  // By the same names, half the range over the repeats as a share of the median: how far the clock
+  // is to be believed.
+  std::map<std::string, double> speed_noise;
   double calibration_ms = 0.0;  // median over the repeats
 
   std::string name() const;  // "experiment: variant.scene.method.s1"

@@ -75,6 +75,11 @@ double SpeedTolerance(const GatedRun& was, const std::string& name, double ratio
   return ratio >= tolerances.gated_step_share * frame->second ? tolerances.step_time : 0.0;
 }
 
+double NoiseOf(const GatedRun& run, const std::string& name) {
+  const auto found = run.speed_noise.find(name);
+  return found == run.speed_noise.end() ? 0.0 : found->second;
+}
+
 // Failures go by the run's id, which is its name and a hash.
 bool HasFailed(const MeasuredRuns& measured, const std::string& run_name) {
   return std::any_of(measured.failures.begin(), measured.failures.end(), [&](const auto& failure) {
@@ -94,8 +99,9 @@ class Judging {
               AccuracyLimits(metric, value, tolerances_.accuracy));
     for (const auto& [name, value] : was.speed) {
       const double tolerance = SpeedTolerance(was, name, value, tolerances_);
-      if (tolerance > 0.0)
-        Compare(was, is, NumberKind::kSpeed, name, SpeedLimits(value, tolerance));
+      if (tolerance == 0.0) continue;
+      const double noise = NoiseOf(was, name) + NoiseOf(is, name);
+      Compare(was, is, NumberKind::kSpeed, name, SpeedLimits(value, std::max(tolerance, noise)));
     }
     if (!is.unsteady.empty()) {
       judgement_.failures[is.name()] =

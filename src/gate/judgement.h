@@ -11,6 +11,7 @@
 
 namespace vitruvia {
 
+// Speed is allowed the noise of its repeats, then and now, where that is more.
 struct GateTolerances {
   double accuracy = 1e-3;
   double frame_time = 0.2;

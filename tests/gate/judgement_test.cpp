@@ -113,6 +113,17 @@ TEST(Judge, AStepSlowedByThirtyPercentIsASpeedRegression) {
   EXPECT_EQ(faster.OfChange(Change::kImproved).size(), 2u);
 }
 
+TEST(Judge, NoiseOfTheRepeatsIsAllowedToSpeed) {
+  const std::vector noisy = {Record(0.01, 4.0, 10.0), Record(0.01, 6.0, 10.0),
+                             Record(0.01, 8.0, 10.0)};
+  const GatedRun was = MakeGatedRun("nightly", noisy);
+  EXPECT_DOUBLE_EQ(was.speed_noise.at(kWholeFrame), 1.0 / 3.0);
+  EXPECT_EQ(JudgeOf(was, Gated(Record(0.01, 7.9, 10.0))).Code(), ExitCode::kSuccess);
+  EXPECT_EQ(JudgeOf(was, Gated(Record(0.01, 8.1, 10.0))).Code(), ExitCode::kSpeedRegressed);
+  const GatedRun steady = Gated(Record(0.01, 6.0, 10.0));
+  EXPECT_EQ(JudgeOf(steady, Gated(Record(0.01, 7.9, 10.0))).Code(), ExitCode::kSpeedRegressed);
+}
+
 TEST(Judge, AccuracyComesBeforeSpeedAndFailuresBeforeBoth) {
   const GatedRun was = Gated(Record(0.01, 6.0, 10.0));
   const GatedRun bad = Gated(Record(0.02, 12.0, 10.0));

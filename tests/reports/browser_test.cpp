@@ -22,12 +22,13 @@ using testing::Not;
 
 constexpr const char* kBrowser = "chromium";
 
-// Sorts the last table by its first column, twice, and writes what became of it into the title.
+// Sorts the last table by its runs, twice, and writes what became of it into the title.
 constexpr const char* kProbe = R"js(<script>addEventListener("load", () => {
   const images = [...document.images];
   const table = [...document.querySelectorAll("table.sortable")].pop();
-  const cells = () => [...table.tBodies[0].rows].map(row => row.cells[0].dataset.value).join(",");
-  const button = table.querySelector("thead button");
+  const column = [...table.tBodies[0].rows[0].cells].findIndex(c => c.className === "run");
+  const cells = () => [...table.tBodies[0].rows].map(row => row.cells[column].dataset.value).join(",");
+  const button = table.querySelectorAll("thead button")[column];
   button.click();
   const up = cells();
   button.click();

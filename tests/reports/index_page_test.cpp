@@ -82,7 +82,7 @@ TEST(MakeIndexPage, ListsEveryRunAndEscapesWhatOthersWrote) {
 std::vector<HistoryEntry> ThreeNights() {
   std::vector<HistoryEntry> history;
   for (const char* commit : {"aaa", "bbb", "ccc"}) {
-    GatedRun run{"nightly/clean", "short", "walk", "realtime_scape", 1, 3, {}, {}, {}, 8.0};
+    GatedRun run{"nightly/clean", "short", "walk", "realtime_scape", 1, 3, {}, {}, {}, {}, 8.0};
     run.accuracy = {{"l2_mean_m", 0.001 * static_cast<double>(history.size() + 1)}};
     run.speed = {{kWholeFrame, 0.5}};
     history.push_back({"2026-01-0" + std::to_string(history.size() + 1), commit, 0, {run}});
