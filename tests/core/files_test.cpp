@@ -1,6 +1,7 @@
 #include "core/files.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <string>
 #include <unistd.h>
@@ -68,7 +69,10 @@ TEST(WriteWholeFile, KeepsTheOldContentWhereTheDiskIsFull) {
   // A file that is too large for the process stands for a full disk just as well, but would need a
   // signal handler; here the temporary name leads to the device that is always full.
   WriteWholeFile(folder / "file", "old");
-  fs::create_symlink(full, folder / (".file." + std::to_string(getpid()) + ".part"));
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  const std::string process = std::string(host.data()) + "-" + std::to_string(getpid());
+  fs::create_symlink(full, folder / (".file." + process + ".part"));
   EXPECT_THROW(WriteWholeFile(folder / "file", "new"), RunError);
   EXPECT_EQ(ReadWholeFile(folder / "file"), "old");
   EXPECT_THAT(Names(folder.path()), ElementsAre("file"));
