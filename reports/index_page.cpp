@@ -40,56 +40,66 @@ std::string TextCell(const std::string& html, const std::string& value) {
   return fmt::format("<td data-value=\"{}\">{}</td>", Escaped(value), html);
 }
 
-// Ours over all runs of an experiment that have the number.
+// Ours over all runs of an experiment that a published number is about.
 struct OursInAll {
   double least = NAN, most = NAN;
-  int count = 0, met = 0;
+  int runs = 0, met = 0;  // without a result none is met
 };
 
-OursInAll OursOf(const ReportedExperiment& experiment, const Expectation& e) {
+OursInAll OursOf(const ReportedExperiment& experiment, const Comparison& comparison) {
   OursInAll ours;
+  for (const ComparedRun& run : comparison.runs) {
+    ++ours.runs;
+    ours.met += run.verdict == Verdict::kMet ? 1 : 0;
+  }
   for (const RunRecord* run : experiment.finished()) {
-    const double value = MetricValue(*run, e.metric);
-    if (std::isnan(value)) continue;
+    const double value = MetricValue(*run, comparison.expectation.metric);
+    if (std::isnan(value) || !comparison.expectation.IsAbout(run->scene)) continue;
     ours.least = std::isnan(ours.least) ? value : std::min(ours.least, value);
     ours.most = std::isnan(ours.most) ? value : std::max(ours.most, value);
-    ours.met += value <= e.at_most ? 1 : 0;
-    ++ours.count;
   }
   return ours;
 }
 
 std::string OursText(const OursInAll& ours, const MetricName& metric) {
-  if (ours.count == 0) return "–";
+  if (std::isnan(ours.least)) return "–";
   const std::string least = Printed(ours.least, metric), most = Printed(ours.most, metric);
   return least == most ? least : fmt::format("{} … {}", least, most);
 }
 
-std::string VerdictOfAll(const OursInAll& ours, const Expectation& e) {
-  if (!e.not_comparable.empty())
+// Sorted by data-value: what is met, what nobody asked for, what is missing, what is missed.
+std::string VerdictOfAll(const OursInAll& ours, const Comparison& comparison) {
+  const std::string& why_not = comparison.expectation.not_comparable;
+  if (!why_not.empty()) {
     return fmt::format("<td class=\"soft\" data-value=\"3\">not comparable because {}</td>",
-                       Escaped(e.not_comparable));
-  if (ours.count == 0) return "<td class=\"verdict none\" data-value=\"2\">no result</td>";
-  if (std::isnan(e.at_most)) return "<td class=\"soft\" data-value=\"1\">no target</td>";
-  if (ours.met == ours.count) return "<td class=\"verdict met\" data-value=\"0\">✓ met</td>";
+                       Escaped(why_not));
+  }
+  if (std::isnan(ours.least)) return "<td class=\"verdict none\" data-value=\"2\">no result</td>";
+  if (comparison.target.empty()) return "<td class=\"soft\" data-value=\"1\">no target</td>";
+  if (ours.met == ours.runs) return "<td class=\"verdict met\" data-value=\"0\">✓ met</td>";
   return fmt::format("<td class=\"verdict missed\" data-value=\"4\">✗ {} of {} met</td>", ours.met,
-                     ours.count);
+                     ours.runs);
 }
 
-std::string PaperRow(const IndexedExperiment& indexed, const Expectation& e) {
-  const MetricName metric = NameOfMetric(e.metric);
-  const OursInAll ours = OursOf(indexed.experiment, e);
+std::string TargetText(const Comparison& comparison) {
+  if (comparison.target.empty()) return "–";
+  return (comparison.more_is_better() ? "≥ " : "≤ ") + comparison.target;
+}
+
+std::string PaperRow(const IndexedExperiment& indexed, const Comparison& comparison) {
+  const Expectation& e = comparison.expectation;
+  const OursInAll ours = OursOf(indexed.experiment, comparison);
   const auto number_cell = [&](const char* label, const std::string& text, double value) {
     return fmt::format("<td class=\"n\" data-label=\"{}\"{}>{}</td>", label,
                        std::isnan(value) ? "" : fmt::format(" data-value=\"{}\"", value), text);
   };
   return "<tr>" + TextCell(Escaped(e.source), e.source) +
-         TextCell(Escaped(Titled(metric)), Titled(metric)) +
-         number_cell("published", std::isnan(e.paper) ? "–" : Printed(e.paper, metric), e.paper) +
-         number_cell("ours", OursText(ours, metric), ours.most) +
-         number_cell("target", std::isnan(e.at_most) ? "–" : "≤ " + Printed(e.at_most, metric),
-                     e.at_most) +
-         VerdictOfAll(ours, e) +
+         TextCell(Escaped(Titled(comparison.metric)), Titled(comparison.metric)) +
+         number_cell("published", comparison.paper, e.paper) +
+         number_cell("ours", OursText(ours, comparison.metric), ours.most) +
+         number_cell("target", TargetText(comparison),
+                     comparison.more_is_better() ? e.at_least : e.at_most) +
+         VerdictOfAll(ours, comparison) +
          TextCell(LinkTo(indexed, indexed.experiment.record.name), indexed.experiment.record.name) +
          fmt::format("<td class=\"soft\">{}</td></tr>\n", Escaped(e.remark));
 }
@@ -97,8 +107,8 @@ std::string PaperRow(const IndexedExperiment& indexed, const Expectation& e) {
 std::string PaperSectionOfAll(const IndexContent& content) {
   std::string rows;
   for (const IndexedExperiment& indexed : content.experiments) {
-    for (const Expectation& e : indexed.experiment.record.expectations)
-      rows += PaperRow(indexed, e);
+    for (const Comparison& comparison : CompareWithPapers(indexed.experiment))
+      rows += PaperRow(indexed, comparison);
   }
   if (rows.empty()) return "";
   return "<section id=\"papers\"><h2>The papers’ figures and tables</h2>\n<p>Published value, ours "

@@ -102,7 +102,8 @@ std::string KindOf(const fs::path& file, const Json& config) {
       {"scenes", "scene"},      {"methods", "method"},   {"scans", "scan"},
       {"learning", "learning"}, {"subjects", "subject"}, {"skeletons", "skeleton"},
       {"motions", "motion"}};
-  const auto found = folders.find(file.parent_path().filename().string());
+  const fs::path configs = fs::path(VITRUVIA_SOURCE_DIR) / "configs";
+  const auto found = folders.find(file.lexically_relative(configs).begin()->string());
   if (found != folders.end()) return found->second;
   if (config.contains("experiments")) return "regression";
   return config.value("kind", "tracking") == "tracking" ? "experiment"
@@ -164,7 +165,9 @@ TEST(Schema, RefusesWhatTheReaderRefuses) {
     return SchemaCheck().Violations(method, config).size();
   };
   EXPECT_EQ(of_method({{"method", "realtime_scape"}, {"settings", {{"axis_weight", 2}}}}), 0u);
-  EXPECT_EQ(of_method({{"method", "dynamic"}, {"settings", {{"axis_weight", 2}}}}), 1u);
+  EXPECT_EQ(of_method({{"method", "dynamic"},
+                       {"settings", {{"skeleton", "s.json"}, {"axis_weight", 2}}}}),
+            1u);
   EXPECT_EQ(of_method({{"method", "static"}}), 1u);
   EXPECT_EQ(of_method({{"settings", Json::object()}}), 1u);
 }
