@@ -193,7 +193,7 @@ TEST(Registry, ReadsAMethodAndNamesWhatItDoesNotKnow) {
   };
   EXPECT_EQ(message(R"({"method": "realtime_scap"})"),
             "m.json: method: unknown method \"realtime_scap\"; did you mean \"realtime_scape\"? "
-            "known: realtime_scape, dynamic");
+            "known: realtime_scape, dynamic, external");
   EXPECT_NE(message(R"({"method": "realtime_scape", "settings": {"join_weight": 3}})")
                 .find("m.json: settings.join_weight: unknown key (value 3); did you mean "
                       "\"joint_weight\"?"),
