@@ -4,11 +4,11 @@
   tests/experiments/show_sweep.py build/vitruvia configs/ablations/terms_sweep.json FOLDER
 
 One after the other, each into a folder of its own below FOLDER (which must be new):
-  single     one run at a time
-  jobs       two at a time (-j 2); prints how much faster that was, and
-             with the report, whose drawing takes both cores either way
   killed     kill -9 after 3, 9 and 20 finished runs, each time gone on with, then to its end
   shards     two processes with --shard 1/2 and 2/2 at the same time
+  single     one run at a time, the sequences made before
+  jobs       two at a time (-j 2); prints how much faster that was, and
+             with the report, whose drawing takes both cores either way
 Then compares summaries and records of all, but for what a clock says. Ends with 1 on a difference.
 The speed-up means something only on a machine with nothing else to do.
 """
@@ -68,12 +68,6 @@ def main():
               f"load average {load:.1f}", flush=True)
         return runs, whole
 
-    print(f"load average before: {os.getloadavg()[0]:.1f}")
-    single = timed("single")
-    jobs = timed("jobs", "-j", "2")
-    print(f"two jobs are {single[0] / jobs[0]:.2f} times as fast as one, "
-          f"{single[1] / jobs[1]:.2f} times with the report")
-
     killed = os.path.join(top, "killed")
     for enough in (3, 9, 20):
         process = start("killed", "-j", "2")
@@ -86,6 +80,12 @@ def main():
 
     shards = [start("shards", "--shard", f"{i}/2") for i in (1, 2)]
     print("shards: exit codes", [shard.wait() for shard in shards])
+
+    print(f"load average before: {os.getloadavg()[0]:.1f}")
+    single = timed("single")
+    jobs = timed("jobs", "-j", "2")
+    print(f"two jobs are {single[0] / jobs[0]:.2f} times as fast as one, "
+          f"{single[1] / jobs[1]:.2f} times with the report")
 
     expected = result(os.path.join(top, "single"))
     same = True
