@@ -1,17 +1,22 @@
-# add_module(NAME [DEPENDS module...] [LINKS target...] [OFFERS prefix...] [HIDES prefix...])
+# add_module(NAME [OUTSIDE_FRAMES] [DEPENDS module...] [LINKS target...] [OFFERS prefix...] [HIDES prefix...])
 #
 # One library per folder: vitruvia_NAME, made of every *.cpp of the calling folder.
+#   OUTSIDE_FRAMES  nothing in it works on pixels or vertices: a release compiles it with -O1, which
+#            takes three quarters of the time
 #   DEPENDS  modules whose headers it may include (tests/lint holds the #include lines against this list)
 #   LINKS    third-party targets
 #   OFFERS   third-party header prefixes that come in with this module; every module above may include them
 #   HIDES    third-party header prefixes that only this module's own files may include
 function(add_module name)
-  cmake_parse_arguments(ARG "" "" "DEPENDS;LINKS;OFFERS;HIDES" ${ARGN})
+  cmake_parse_arguments(ARG "OUTSIDE_FRAMES" "" "DEPENDS;LINKS;OFFERS;HIDES" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS *.cpp)
   list(TRANSFORM ARG_DEPENDS PREPEND vitruvia_)
   if(sources)
     add_library(vitruvia_${name} STATIC ${sources})
     target_link_libraries(vitruvia_${name} PUBLIC vitruvia_options ${ARG_DEPENDS} ${ARG_LINKS})
+    if(ARG_OUTSIDE_FRAMES)
+      target_compile_options(vitruvia_${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+    endif()
   else()
     add_library(vitruvia_${name} INTERFACE)
     target_link_libraries(vitruvia_${name} INTERFACE vitruvia_options ${ARG_DEPENDS} ${ARG_LINKS})
