@@ -325,6 +325,9 @@ void ScoreRun(const SequenceReader& sequence, const EstimateReader& estimate,
     record.joint_error_mean_m[joint] = Mean(errors);
   record.steps = StepTimes(estimate);
   SummarizeRun(joints, record);
+  if (estimate.tracker_memory_mb()) {
+    record.summary["tracker_memory_mb"] = *estimate.tracker_memory_mb();
+  }
 }
 
 }  // namespace vitruvia

@@ -1,8 +1,11 @@
 #include "experiments/tracking_runs.h"
 
+#include <algorithm>
+
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/process_memory.h"
 #include "core/progress.h"
 #include "core/timer.h"
 #include "experiments/kept_work.h"
@@ -65,6 +68,8 @@ std::string LogOf(const fs::path& estimate_folder) {
 void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
                    const BodyModel& subject, const fs::path& folder) {
   const SequenceInfo& info = sequence.info();
+  ForgetPeakMemory();
+  const double before_mb = ResidentMemory_mb();
   const std::unique_ptr<Tracker> tracker = MakeTracker(method);
   EstimateWriter writer(folder, subject.rest);
   Progress progress("track " + method.method, info.frames);
@@ -76,7 +81,7 @@ void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
     writer.Append(result, watch.ElapsedMs());
     progress.Advance();
   }
-  writer.Finish();
+  writer.Finish(std::max(0.0, PeakMemory_mb() - before_mb));
 }
 
 std::vector<PlannedRun> TrackingRuns(const ExperimentPlan& plan, const fs::path& folder,

@@ -30,6 +30,7 @@ const std::array kKnown = {
     MetricName{"frame_ms_median", "time per frame, median", "ms", 1.0, 1},
     MetricName{"frame_ms_p95", "time per frame, 95th percentile", "ms", 1.0, 1},
     MetricName{"frame_ms_max", "time per frame, maximum", "ms", 1.0, 1},
+    MetricName{"tracker_memory_mb", "the tracker's memory, at most", "MB", 1.0, 0},
     MetricName{"iterations_mean", "iterations per frame, mean", "", 1.0, 2},
     MetricName{kCalibratedTime, "time per frame, median / calibration kernel", "", 1.0, 3},
 };

@@ -141,16 +141,17 @@ void EstimateWriter::Append(const TrackResult& result, double frame_ms) {
                          static_cast<std::streamsize>(state_->vertex_count * sizeof(Vector3f)));
 }
 
-void EstimateWriter::Finish() {
+void EstimateWriter::Finish(std::optional<double> tracker_memory_mb) {
   state_->vertices.close();
   if (!state_->vertices) {
     throw RunError(fmt::format("{}: cannot be written (disk full?)",
                                (state_->folder.path() / kVerticesFile).string()));
   }
-  const Json index = {{"format", kFormat},
-                      {"version", kVersion},
-                      {"vertex_count", state_->vertex_count},
-                      {"frames", std::move(state_->frames)}};
+  Json index = {{"format", kFormat},
+                {"version", kVersion},
+                {"vertex_count", state_->vertex_count},
+                {"frames", std::move(state_->frames)}};
+  if (tracker_memory_mb) index["tracker_memory_mb"] = *tracker_memory_mb;
   WriteWholeFile(state_->folder.path() / kIndexFile, index.dump() + "\n");
   state_->folder.Commit();
 }
@@ -162,6 +163,9 @@ EstimateReader::EstimateReader(fs::path folder) : folder_(std::move(folder)) {
   if (node.At("format").Text() != kFormat) node.At("format").Fail("expected \"vitruvia-estimate\"");
   if (node.At("version").Integer() != kVersion) node.At("version").Fail("expected version 1");
   frames_ = node.At("frames").List(ParseFrame);
+  if (index.contains("tracker_memory_mb")) {
+    tracker_memory_mb_ = node.At("tracker_memory_mb").Number();
+  }
   rest_mesh_ = ReadMesh(folder_ / kMeshFile);
   if (node.At("vertex_count").Integer() != static_cast<int>(rest_mesh_.vertices.size())) {
     node.At("vertex_count")

@@ -1,13 +1,15 @@
 // What a tracker said of a sequence, stored raw so that every metric can be computed again.
 //
 //   estimate.json   format, version, vertex count, and per frame: outcome, message, iterations,
-//                   frame_ms, step_ms, energies, condition, joints (camera frame, metres)
+//                   frame_ms, step_ms, energies, condition, joints (camera frame, metres);
+//                   tracker_memory_mb
 //   vertices.bin    float32 [frames][vertices][3], camera frame, metres, little-endian
 //   mesh.ply        triangles and rest pose of the tracked surface
 #pragma once
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,7 +33,9 @@ class EstimateWriter {
   EstimateWriter(std::filesystem::path folder, const TriangleMesh& rest_mesh);
   ~EstimateWriter();
   void Append(const TrackResult& result, double frame_ms);
-  void Finish();  // moves the folder into place; without it nothing is left behind
+  // Moves the folder into place; without it nothing is left behind. The memory is the most that
+  // the tracker held, in MB of 10⁶ bytes.
+  void Finish(std::optional<double> tracker_memory_mb = std::nullopt);
 
  private:
   struct State;
@@ -44,12 +48,14 @@ class EstimateReader {
   explicit EstimateReader(std::filesystem::path folder);
   const TriangleMesh& rest_mesh() const { return rest_mesh_; }
   const std::vector<FrameEstimate>& frames() const { return frames_; }
+  std::optional<double> tracker_memory_mb() const { return tracker_memory_mb_; }
   std::vector<Vector3f> ReadVertices(int frame) const;
 
  private:
   std::filesystem::path folder_;
   TriangleMesh rest_mesh_;
   std::vector<FrameEstimate> frames_;
+  std::optional<double> tracker_memory_mb_;
 };
 
 }  // namespace vitruvia

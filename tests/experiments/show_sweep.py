@@ -9,7 +9,7 @@ One after the other, each into a folder of its own below FOLDER (which must be n
   single     one run at a time, the sequences made before
   jobs       two at a time (-j 2); prints how much faster that was, and
              with the report, whose drawing takes both cores either way
-Then compares summaries and records of all, but for what a clock says. Ends with 1 on a difference.
+Then compares summaries and records of all, but for what a clock or the memory's gauge says. Ends with 1 on a difference.
 The speed-up means something only on a machine with nothing else to do.
 """
 import json
@@ -19,7 +19,8 @@ import subprocess
 import sys
 import time
 
-CLOCK = {"frame_ms", "frame_ms_median", "frame_ms_p95", "frame_ms_max", "steps", "provenance"}
+CLOCK = {"frame_ms", "frame_ms_median", "frame_ms_p95", "frame_ms_max", "steps", "provenance",
+         "tracker_memory_mb"}
 
 
 def without_clock(value):

@@ -23,7 +23,7 @@ class EstimateTest : public testing::Test {
     EstimateWriter writer(folder_, mesh_);
     writer.Append(Result(0.1f, Outcome::kConverged), 12.5);
     writer.Append(Result(0.7f, Outcome::kLost), 1.0 / 3.0);
-    writer.Finish();
+    writer.Finish(48.5);
   }
   TrackResult Result(float shift_m, Outcome outcome) const {
     TrackResult result;
@@ -50,6 +50,7 @@ TEST_F(EstimateTest, RoundTrips) {
   WriteTwoFrames();
   const EstimateReader reader(folder_);
   ASSERT_EQ(reader.frames().size(), 2u);
+  EXPECT_EQ(reader.tracker_memory_mb(), 48.5);
   EXPECT_EQ(reader.rest_mesh().vertices, mesh_.vertices);
   EXPECT_EQ(reader.rest_mesh().triangles, mesh_.triangles);
   const FrameEstimate& first = reader.frames()[0];
