@@ -1,7 +1,9 @@
 #include "experiments/commands.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -10,6 +12,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/progress.h"
+#include "core/write_failure.h"
 #include "experiments/compare_command.h"
 #include "experiments/experiment_config.h"
 #include "experiments/explain.h"
@@ -76,19 +79,20 @@ void Verify(const fs::path& folder) {
   fmt::print("{}: complete and consistent\n", folder.string());
 }
 
-void Track(const fs::path& method_file, const fs::path& sequence_folder, const fs::path& output) {
-  const MethodConfig method = ReadMethodConfig(ReadJsonFile(method_file), {method_file, ""});
-  const SequenceReader sequence(sequence_folder);
-  TrackSequence(sequence, method, sequence.subject(), output);
-  RunRecord record;
-  ScoreRun(sequence, EstimateReader(output), ScoreSettings(), record);
-  fmt::print("{}\n", record.summary.dump(2));
-}
-
 struct Arguments {
-  fs::path scene, method, sequence, verified, reported, output;
+  fs::path scene, method, sequence, subject, verified, reported, output;
   std::string key;
 };
+
+void Track(const Arguments& a) {
+  const MethodConfig method = ReadMethodConfig(ReadJsonFile(a.method), {a.method, ""});
+  const SequenceReader sequence(a.sequence);
+  const BodyModel subject = a.subject.empty() ? sequence.subject() : ReadBodyModel(a.subject);
+  TrackSequence(sequence, method, subject, a.output);
+  RunRecord record;
+  ScoreRun(sequence, EstimateReader(a.output), ScoreSettings(), record);
+  fmt::print("{}\n", record.summary.dump(2));
+}
 
 void AddCommands(CLI::App& app, Arguments& a) {
   app.set_version_flag("--version", VersionText());
@@ -113,7 +117,9 @@ void AddCommands(CLI::App& app, Arguments& a) {
   track->add_option("METHOD", a.method, "method file")->required();
   track->add_option("--sequence", a.sequence, "folder of the sequence")->required();
   track->add_option("-o,--output", a.output, "folder of the estimate")->required();
-  track->callback([&a] { Track(a.method, a.sequence, a.output); });
+  track->add_option("--subject", a.subject,
+                    "folder of the tracker's subject; the sequence's own without");
+  track->callback([&a] { Track(a); });
 
   AddRunCommand(app);
   AddStatusCommand(app);
@@ -147,6 +153,7 @@ void AddCommands(CLI::App& app, Arguments& a) {
 int RunCommandLine(int argc, const char* const* argv) {
   std::signal(SIGINT, [](int) { RequestInterrupt(); });
   std::signal(SIGTERM, [](int) { RequestInterrupt(); });
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that must not grow is an error that is told
   CLI::App app("Measures how well and how fast a human body can be tracked from one depth camera.",
                "vitruvia");
   Arguments arguments;
@@ -159,6 +166,7 @@ int RunCommandLine(int argc, const char* const* argv) {
           "rescore, export, report, index, compare, "
           "sufficient, regress, schema or explain (--help)");
     }
+    if (std::fflush(stdout) != 0) FailToWrite("standard output", errno);
     return static_cast<int>(ExitCode::kSuccess);
   } catch (const CLI::Success& success) {  // --help, --version
     return app.exit(success);

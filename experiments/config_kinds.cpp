@@ -2,8 +2,10 @@
 
 #include "core/error.h"
 #include "core/settings_schema.h"
+#include "experiments/eval_import.h"
 #include "experiments/experiment_config.h"
 #include "experiments/fitted_subject.h"
+#include "experiments/mesh_import.h"
 #include "experiments/regress_config.h"
 #include "experiments/scan.h"
 #include "experiments/shape_study.h"
@@ -28,6 +30,10 @@ const std::vector<ConfigKind>& ConfigKinds() {
         {"fit", "how a shape is fitted to a scan", VisitDefaults<IntrinsicShapeSettings>, nullptr},
         {"subject", "a subject that is scanned and fitted", VisitSubjectFile, nullptr},
         {"skeleton", "a kinematic skeleton", VisitSkeletonFile, nullptr},
+        {"import_meshes", "mesh files made into a sequence", VisitDefaults<MeshSequenceSettings>,
+         nullptr},
+        {"import_eval", "Stanford EVAL files made into a sequence",
+         VisitDefaults<EvalImportSettings>, nullptr},
         {"motion", "key frames of a motion", VisitMotionFile, nullptr}};
     for (const MethodInfo& method : Methods()) {
       list.push_back(

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 
 #include "core/error.h"
-#include "core/hash.h"
+#include "experiments/kept_work.h"
+#include "sequence/sequence_files.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -23,30 +25,80 @@ bool IsPlainName(const std::string& name) {
 // Long enough for any sweep that a person reads, short enough for a folder's name.
 constexpr std::size_t kLongestRunId = 200;
 
-RunPlan PlanRun(const fs::path& scene_file, const fs::path& method_file,
+// What runs are made on: a scene file, or the folder of a stored sequence.
+struct Recording {
+  fs::path path;
+  bool is_stored = false;
+};
+
+std::vector<Recording> RecordingsOf(const ExperimentSettings& settings) {
+  std::vector<Recording> recordings;
+  for (const fs::path& scene : settings.scenes) recordings.push_back({scene, false});
+  for (const fs::path& sequence : settings.sequences) recordings.push_back({sequence, true});
+  return recordings;
+}
+
+void TakeScene(const fs::path& scene_file, const VariantSettings& variant, RunPlan& run) {
+  run.scene = scene_file.stem().string();
+  run.scene_settings = ReadScene(scene_file, variant.scene);
+  run.scene_settings.seed = run.seed;
+  run.frames = run.scene_settings.frames;
+  run.resolved["scene"] = WriteSettings(run.scene_settings);
+}
+
+void TakeSequence(const fs::path& folder, const VariantSettings& variant, RunPlan& run) {
+  run.sequence = folder.has_filename() ? folder : folder.parent_path();
+  run.scene = run.sequence.filename().string();
+  if (!IsPlainName(run.scene)) {
+    throw ConfigError(fmt::format("{}: expected letters, digits, . _ - only in a sequence's name",
+                                  folder.string()));
+  }
+  if (!variant.scene.empty()) {
+    throw ConfigError(fmt::format("{}: a stored sequence is as it is, got overrides of its scene",
+                                  folder.string()));
+  }
+  run.frames = ReadSequenceInfo(SequenceFiles{run.sequence}.Header()).frames;
+  run.resolved["sequence"] = run.sequence.string();
+}
+
+void TakeSubject(const fs::path& subject, RunPlan& run) {
+  if (fs::is_directory(subject)) {
+    run.subject_folder = subject;
+    run.resolved["subject_folder"] = subject.string();
+    return;
+  }
+  if (!run.sequence.empty()) {
+    throw ConfigError(
+        fmt::format("{}: expected the folder of a subject (mesh.ply, subject.json, weights.bin): "
+                    "the person of a stored sequence cannot be scanned",
+                    subject.string()));
+  }
+  run.subject = ReadSubjectRecipe(subject);
+  run.resolved["subject"] = ResolvedRecipe(*run.subject);
+}
+
+RunPlan PlanRun(const Recording& recording, const fs::path& method_file,
                 const VariantSettings& variant, int seed, const ScoreSettings& score) {
   RunPlan run;
   run.score = score;
   run.variant = variant.name;
-  run.scene = scene_file.stem().string();
   run.method_name = method_file.stem().string();
   run.seed = seed;
-  run.scene_settings = ReadScene(scene_file, variant.scene);
-  run.scene_settings.seed = seed;
   run.method =
       ReadMethodConfig(Merged(ReadJsonFile(method_file), variant.method), {method_file, ""});
-  run.resolved = {{"scene", WriteSettings(run.scene_settings)},
-                  {"method", {{"method", run.method.method}, {"settings", run.method.settings}}},
+  run.resolved = {{"method", {{"method", run.method.method}, {"settings", run.method.settings}}},
                   {"score", WriteSettings(score)}};
-  if (!variant.subject.empty()) {
-    run.subject = ReadSubjectRecipe(variant.subject);
-    run.resolved["subject"] = ResolvedRecipe(*run.subject);
+  if (recording.is_stored) {
+    TakeSequence(recording.path, variant, run);
+  } else {
+    TakeScene(recording.path, variant, run);
   }
+  if (!variant.subject.empty()) TakeSubject(variant.subject, run);
   return run;
 }
 
 void NameRun(RunPlan& run) {
-  const std::string hash = Hash64().Add(run.resolved.dump()).Hex().substr(0, 8);
+  const std::string hash = SettingsHash(run.resolved).substr(0, 8);
   const std::string repeat = run.repeat > 0 ? fmt::format("r{}.", run.repeat) : "";
   run.run_id = fmt::format("{}.{}.{}.s{}.{}{}", run.variant, run.scene, run.method_name, run.seed,
                            repeat, hash);
@@ -72,12 +124,13 @@ std::vector<VariantSettings> Swept(std::vector<VariantSettings> variants,
   return swept;
 }
 
-// The runs of one scene, method and variant.
-void AddRuns(const fs::path& scene, const fs::path& method, const VariantSettings& variant,
+// The runs of one recording, method and variant. Only a synthesised one has a seed.
+void AddRuns(const Recording& recording, const fs::path& method, const VariantSettings& variant,
              const ExperimentSettings& settings, std::vector<RunPlan>& runs) {
+  const std::size_t seeds = recording.is_stored ? 1 : settings.seeds.size();
   try {
-    for (const int seed : settings.seeds) {
-      RunPlan run = PlanRun(scene, method, variant, seed, settings.score);
+    for (const int seed : std::span(settings.seeds).first(seeds)) {
+      RunPlan run = PlanRun(recording, method, variant, seed, settings.score);
       for (int repeat = 1; repeat <= settings.repeats; ++repeat) {
         if (settings.repeats > 1) run.repeat = repeat;
         NameRun(run);
@@ -95,9 +148,11 @@ constexpr double kMostRuns = 100000;
 
 void RequireFewEnough(const ExperimentSettings& settings, std::size_t variants,
                       const fs::path& file) {
-  const double runs = static_cast<double>(settings.scenes.size()) *
-                      static_cast<double>(settings.methods.size()) * static_cast<double>(variants) *
-                      static_cast<double>(settings.seeds.size()) * settings.repeats;
+  const double recordings =
+      static_cast<double>(settings.scenes.size()) * static_cast<double>(settings.seeds.size()) +
+      static_cast<double>(settings.sequences.size());
+  const double runs = recordings * static_cast<double>(settings.methods.size()) *
+                      static_cast<double>(variants) * settings.repeats;
   if (runs <= kMostRuns) return;
   throw ConfigError(fmt::format("{}: stands for {:g} runs, expected at most {:g}", file.string(),
                                 runs, kMostRuns));
@@ -130,8 +185,9 @@ void VariantSettings::Describe(Fields& f) {
   f.FreeJson("scene", scene, {.meaning = "overrides of the scene file (JSON merge patch)"});
   f.FreeJson("method", method, {.meaning = "overrides of the method file (JSON merge patch)"});
   f.File("subject", subject,
-         {.meaning = "subject file: the tracker's subject is scanned and fitted as it says; the "
-                     "scene's own template without"});
+         {.meaning = "what the tracker knows of the person: a subject file (scanned and fitted as "
+                     "it says) or the folder of a subject (mesh.ply, subject.json, weights.bin); "
+                     "the sequence's own template without"});
 }
 
 std::string VariantSettings::Problem() const {
@@ -155,6 +211,11 @@ void ExpectationSettings::Describe(Fields& f) {
 }
 
 std::string ExpectationSettings::Problem() const {
+  const bool has_target = !std::isnan(at_most) || !std::isnan(at_least);
+  if (has_target && !not_comparable.empty()) {
+    return "not_comparable and a target: no verdict would be given; expected two expectations, one "
+           "for the paper's number and one for the target";
+  }
   if (std::isnan(at_most) || std::isnan(at_least)) return "";
   return fmt::format("at_most {} and at_least {}: expected one of the two", at_most, at_least);
 }
@@ -168,7 +229,9 @@ void ExperimentSettings::Describe(Fields& f) {
   f.Text("title", title, {.meaning = "title of the report", .required = true});
   f.Text("description", description,
          {.meaning = "what the experiment shows, for the report's head"});
-  f.Files("scenes", scenes, {.meaning = "scene files", .required = true});
+  f.Files("scenes", scenes, {.meaning = "scene files"});
+  f.Files("sequences", sequences,
+          {.meaning = "folders of stored sequences, recorded or imported, beside the scenes"});
   f.Files("methods", methods, {.meaning = "method files", .required = true});
   f.List("variants", variants,
          {.meaning = "named overrides; each is run on every scene with every method"});
@@ -191,7 +254,8 @@ void ExperimentSettings::Describe(Fields& f) {
 }
 
 std::string ExperimentSettings::Problem() const {
-  if (scenes.empty()) return "scenes: expected at least one scene file, got none";
+  if (scenes.empty() && sequences.empty())
+    return "scenes: expected at least one scene file (or sequences: a stored one), got none";
   if (methods.empty()) return "methods: expected at least one method file, got none";
   if (seeds.empty()) return "seeds: expected at least one seed, got none";
   std::vector<std::string> names;
@@ -240,10 +304,10 @@ ExperimentPlan PlanExperiment(const ExperimentSettings& settings, const fs::path
   const std::vector<VariantSettings> variants = Swept(settings.variants, settings.sweep);
   RequireDifferentNames(variants, experiment_file);
   RequireFewEnough(settings, variants.size(), experiment_file);
-  for (const fs::path& scene : settings.scenes) {
+  for (const Recording& recording : RecordingsOf(settings)) {
     for (const fs::path& method : settings.methods) {
       for (const VariantSettings& variant : variants)
-        AddRuns(scene, method, variant, settings, plan.runs);
+        AddRuns(recording, method, variant, settings, plan.runs);
     }
   }
   RequireDifferentRuns(plan.runs, experiment_file);

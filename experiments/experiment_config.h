@@ -23,7 +23,9 @@ struct VariantSettings {
   std::string description;
   Json scene = Json::object();
   Json method = Json::object();
-  std::filesystem::path subject;  // a recipe (fitted_subject.h); "": the scene's own template
+  // A recipe (fitted_subject.h) or the folder of a body (body_model.h); "": the scene's own
+  // template, or what a stored sequence has.
+  std::filesystem::path subject;
 
   void Describe(Fields& fields);
   std::string Problem() const;
@@ -46,7 +48,8 @@ struct ExperimentSettings {
   std::string kind = "tracking";
   std::string title, description;
   std::vector<std::filesystem::path> scenes, methods;
-  std::vector<VariantSettings> variants;  // none: one without overrides, named "default"
+  std::vector<std::filesystem::path> sequences;  // stored ones, beside the scenes
+  std::vector<VariantSettings> variants;         // none: one without overrides, named "default"
   SweepSettings sweep;
   std::vector<int> seeds{1};
   int repeats = 1;
@@ -59,18 +62,24 @@ struct ExperimentSettings {
   std::string Problem() const;
 };
 
-// One cell of the grid scenes × methods × variants × sweep × seeds × repeats, fully resolved.
+// One cell of the grid scenes × methods × variants × sweep × seeds × repeats, fully resolved. A
+// stored sequence stands for a scene of one seed, the first.
 struct RunPlan {
   std::string run_id;   // variant, scene, method, seed, repeat and a hash of the resolved config
   std::string variant;  // its name and the label of the sweep's point
   std::string scene, method_name;
   int seed = 1;
   int repeat = 0;  // 1, 2, … where the experiment has repeats
+  int frames = 0;
+  std::filesystem::path sequence;  // the folder of a stored one; "": synthesised from the scene
   SceneSettings scene_settings;
   MethodConfig method;
   std::optional<SubjectRecipe> subject;
+  std::filesystem::path subject_folder;
   ScoreSettings score;
-  Json resolved;  // { "scene": …, "method": …, "score": …, and with a recipe "subject": … }
+  // { "scene" or "sequence", "method", "score", and as the variant says "subject" or
+  // "subject_folder" }
+  Json resolved;
 };
 
 struct ExperimentPlan {

@@ -3,6 +3,7 @@
 #include "core/files.h"
 #include "experiments/run_state.h"
 #include "experiments/runner.h"
+#include "reports/variant_comparison.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -49,6 +50,7 @@ void WritePlan(const Experiment& experiment, const fs::path& folder) {
 int WriteSummary(const fs::path& folder) {
   const FileLock lock = LockExperiment(folder);
   const auto runs = StatusOfAll(folder);
+  WriteFailures(folder, runs);
   Json rows = Json::array(), failed = Json::object(), missing = Json::array();
   for (const auto& [run_id, status] : runs) {
     if (status.state == RunState::kDone) {
@@ -59,11 +61,13 @@ int WriteSummary(const fs::path& folder) {
       missing.push_back(run_id);
     }
   }
-  WriteFailures(folder, runs);
-  const Json summary = {{"experiment", ReadExperimentRecord(folder).name},
-                        {"rows", rows},
-                        {"failed_runs", failed},
-                        {"missing_runs", missing}};
+  const ReportedExperiment experiment = ReadExperiment(folder);
+  // In this order: what sums up the rows goes before them.
+  const nlohmann::ordered_json summary = {{"experiment", experiment.record.name},
+                                          {"variants", ToJson(TabulateVariants(experiment))},
+                                          {"failed_runs", failed},
+                                          {"missing_runs", missing},
+                                          {"rows", rows}};
   WriteWholeFile(folder / "summary.json", summary.dump(2) + "\n");
   return static_cast<int>(missing.size());
 }

@@ -34,29 +34,64 @@ void AddFolder(const fs::path& folder, Hash64& hash) {
   for (const std::string& file : files) hash.Add(file);
 }
 
+bool NamesFile(const std::string& text) {
+  std::error_code not_a_file;  // texts of all kinds are asked
+  return fs::is_regular_file(text, not_a_file);
+}
+
 void AddNamedFiles(const std::string& key, const Json& json, Hash64& hash) {
   if (json.is_string()) {
-    const fs::path file = json.get<std::string>();
-    std::error_code not_a_file;  // texts of all kinds are asked
-    if (fs::is_regular_file(file, not_a_file)) hash.AddFile(file);
-    if (NamesFolder(key)) AddFolder(file, hash);
+    const auto text = json.get<std::string>();
+    if (NamesFile(text)) hash.AddFile(text);
+    if (NamesFolder(key)) AddFolder(text, hash);
   }
   if (json.is_structured()) {
     for (const auto& item : json.items()) AddNamedFiles(item.key(), item.value(), hash);
   }
 }
 
+std::string PortablePath(const fs::path& path) {
+  const fs::path absolute = fs::absolute(path).lexically_normal();
+  fs::path portable = absolute;
+  for (auto part = absolute.begin(); part != absolute.end(); ++part) {
+    if (*part != "configs") continue;
+    portable = *part;
+    for (auto below = std::next(part); below != absolute.end(); ++below) portable /= *below;
+  }
+  return portable.generic_string();
+}
+
+Json Portable(const std::string& key, const Json& json) {
+  if (json.is_structured()) {
+    Json portable = json;
+    for (const auto& item : portable.items()) {
+      item.value() = Portable(json.is_array() ? key : item.key(), item.value());
+    }
+    return portable;
+  }
+  if (!json.is_string()) return json;
+  const auto text = json.get<std::string>();
+  const bool names_place = !text.empty() && (NamesFile(text) || NamesFolder(key));
+  return names_place ? Json(PortablePath(text)) : json;
+}
+
 }  // namespace
+
+Json WithPortablePaths(const Json& resolved) { return Portable("", resolved); }
+
+std::string SettingsHash(const Json& resolved) {
+  return Hash64().Add(WithPortablePaths(resolved).dump()).Hex();
+}
 
 std::string WorkKey(const Json& resolved) {
   Hash64 hash;
-  hash.Add(GetBuildInfo().build_id).Add(resolved.dump());
+  hash.Add(GetBuildInfo().build_id).Add(SettingsHash(resolved));
   AddNamedFiles("", resolved, hash);
   return hash.Hex();
 }
 
 KeptFolder::KeptFolder(const fs::path& cache, const std::string& name, const Json& resolved)
-    : folder_(cache / fmt::format("{}-{}", name, Hash64().Add(resolved.dump()).Hex())),
+    : folder_(cache / fmt::format("{}-{}", name, SettingsHash(resolved))),
       marker_(folder_.string() + ".key"),
       key_(WorkKey(resolved)) {}
 

@@ -10,6 +10,13 @@
 
 namespace vitruvia {
 
+// The settings with the files and folders that they name written alike, however the configs' path
+// was spelt: from the last folder called "configs" on, or else as absolute paths. What work is
+// called and found again by.
+Json WithPortablePaths(const Json& resolved);
+// Of those, 16 hex digits.
+std::string SettingsHash(const Json& resolved);
+
 // What a stored result depends on: settings, the content of every file that they name, and the
 // program (its linked identity: a changed line of code is another program, committed or not). Two
 // equal keys mean that doing the work again would change nothing but the clock. Of a folder that
@@ -18,7 +25,7 @@ std::string WorkKey(const Json& resolved);
 
 class KeptFolder {
  public:
-  // `cache`/NAME-HASH, the hash that of the resolved settings.
+  // `cache`/NAME-SETTINGSHASH.
   KeptFolder(const std::filesystem::path& cache, const std::string& name, const Json& resolved);
 
   const std::filesystem::path& path() const { return folder_; }

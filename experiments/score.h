@@ -22,7 +22,8 @@ struct ScoreSettings {
 };
 
 // Fills frames, curves, steps, diagonal and the summary's metrics of the record; what names the run
-// (ids, variant, scene, seed, config) is the caller's. Failed frames are in every mean.
+// (ids, variant, scene, seed, config) is the caller's. Failed frames are in every mean. What the
+// sequence has no truth for is absent, never zero, and the summary's "not_scored" names it.
 // DataError if the estimate and the sequence do not belong together.
 void ScoreRun(const SequenceReader& sequence, const EstimateReader& estimate,
               const ScoreSettings& settings, RunRecord& record);

@@ -8,7 +8,6 @@
 
 #include "core/build_info.h"
 #include "core/error.h"
-#include "core/hash.h"
 #include "core/timer.h"
 #include "experiments/kept_work.h"
 #include "geometry/surface_map.h"
@@ -97,7 +96,7 @@ RunRecord CarryOut(const ShapeStudy& study, std::size_t scan_number, int person_
   record.variant = study.settings.scans[scan_number].name;
   record.scene = person;
   record.method = kShapeMethod;
-  record.config = Resolved(study, scan_number);
+  record.config = WithPortablePaths(Resolved(study, scan_number));
   record.provenance = TimedProvenance();
   record.summary = {
       {"run_id", run_id},
@@ -121,7 +120,7 @@ RunRecord CarryOut(const ShapeStudy& study, std::size_t scan_number, int person_
 
 std::string RunId(const ShapeStudy& study, std::size_t scan, int person) {
   return fmt::format("{}.s{:03}.{}", study.settings.scans[scan].name, person,
-                     Hash64().Add(Resolved(study, scan).dump()).Hex().substr(0, 8));
+                     SettingsHash(Resolved(study, scan)).substr(0, 8));
 }
 
 }  // namespace

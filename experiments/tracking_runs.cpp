@@ -21,14 +21,24 @@ KeptFolder SequenceOf(const RunPlan& run, const WorkFolders& work) {
   return {work.sequences, run.scene, WriteSettings(run.scene_settings)};
 }
 
-RunRecord CarryOut(const RunPlan& run, const std::string& experiment, const fs::path& folder,
-                   const WorkFolders& work) {
+fs::path ObtainSequence(const RunPlan& run, const WorkFolders& work) {
+  if (!run.sequence.empty()) return run.sequence;
   const KeptFolder kept = SequenceOf(run, work);
   kept.Obtain([&run](const fs::path& made) { SynthesizeSequence(run.scene_settings, made); });
-  const SequenceReader sequence(kept.path());
-  const BodyModel subject =
-      run.subject ? ObtainFittedSubject(*run.subject, run.scene_settings, work.learned)
-                  : sequence.subject();
+  return kept.path();
+}
+
+BodyModel ObtainSubject(const RunPlan& run, const SequenceReader& sequence,
+                        const WorkFolders& work) {
+  if (run.subject) return ObtainFittedSubject(*run.subject, run.scene_settings, work.learned);
+  if (!run.subject_folder.empty()) return ReadBodyModel(run.subject_folder);
+  return sequence.subject();
+}
+
+RunRecord CarryOut(const RunPlan& run, const std::string& experiment, const fs::path& folder,
+                   const WorkFolders& work) {
+  const SequenceReader sequence(ObtainSequence(run, work));
+  const BodyModel subject = ObtainSubject(run, sequence, work);
   TrackSequence(sequence, run.method, subject, folder / run.run_id / "estimate");
 
   RunRecord record;
@@ -38,9 +48,9 @@ RunRecord CarryOut(const RunPlan& run, const std::string& experiment, const fs::
   record.scene = run.scene;
   record.method = run.method_name;
   record.seed = run.seed;
-  record.config = run.resolved;
+  record.config = WithPortablePaths(run.resolved);
   record.provenance = TimedProvenance();
-  record.sequence_folder = fs::absolute(kept.path()).lexically_relative(fs::absolute(folder));
+  record.sequence_folder = fs::absolute(sequence.folder()).lexically_relative(fs::absolute(folder));
   record.sequence_hash = sequence.hash();
   record.summary = {{"run_id", run.run_id},
                     {"variant", run.variant},
@@ -99,9 +109,9 @@ std::vector<PlannedRun> TrackingRuns(const ExperimentPlan& plan, const fs::path&
     planned.variant = run.variant;
     planned.scene = run.scene;
     planned.method = run.method_name;
-    planned.frames = run.scene_settings.frames;
+    planned.frames = run.frames;
     planned.timed = plan.timed;
-    planned.shares = SequenceOf(run, work);
+    if (run.sequence.empty()) planned.shares = SequenceOf(run, work);
     runs.push_back(std::move(planned));
   }
   return runs;

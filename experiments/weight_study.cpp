@@ -5,7 +5,6 @@
 
 #include "core/build_info.h"
 #include "core/error.h"
-#include "core/hash.h"
 #include "experiments/kept_work.h"
 #include "learning/skinning/fit_errors.h"
 #include "metrics/statistics.h"
@@ -85,7 +84,7 @@ RunRecord CarryOut(const WeightStudy& study, int person_number, const std::strin
   record.variant = "held_out";
   record.scene = person;
   record.method = kWeightMethod;
-  record.config = {{"learning", WriteSettings(study.learning)}};
+  record.config = WithPortablePaths({{"learning", WriteSettings(study.learning)}});
   record.provenance = TimedProvenance();
   record.summary = {{"run_id", run_id},
                     {"variant", record.variant},
@@ -130,7 +129,7 @@ Experiment PlanWeightStudy(const fs::path& file, const WorkFolders& work) {
   for (const ExpectationSettings& e : study->settings.expectations)
     experiment.record.expectations.push_back(e.AsRecorded());
   const Json resolved = WriteSettings(study->learning);
-  const std::string hash = Hash64().Add(resolved.dump()).Hex().substr(0, 8);
+  const std::string hash = SettingsHash(resolved).substr(0, 8);
   const int first = study->learning.database.population.subjects - study->learning.held_out;
   for (int person = first; person < first + study->settings.people; ++person) {
     const std::string run_id = fmt::format("held_out.{}.{}", SubjectName(person), hash);

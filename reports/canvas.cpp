@@ -21,6 +21,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/write_failure.h"
 #include "reports/html_text.h"
 
 namespace vitruvia {
@@ -268,8 +269,9 @@ void DrawingWriter::Write(const fs::path& stem, int width, int height,
   const fs::path svg = fs::path(stem).concat(".svg");
   window_->Show(width, height, 1.0);
   window_->ExportSvg(svg);
-  if (!fs::exists(svg)) throw RunError(fmt::format("{}: cannot be written", svg.string()));
-  WriteWholeFile(svg, Completed(ReadWholeFile(svg), width, height, window_->drawing->additions));
+  const std::string exported = fs::exists(svg) ? ReadWholeFile(svg) : "";
+  if (exported.find("</svg>") == std::string::npos) FailToWrite(svg, 0);  // or cut short
+  WriteWholeFile(svg, Completed(exported, width, height, window_->drawing->additions));
 }
 
 }  // namespace vitruvia

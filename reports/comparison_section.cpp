@@ -51,7 +51,49 @@ std::string VariantRow(const VariantComparison& row) {
       VerdictClass(verdict), verdict);
 }
 
+std::string SummaryOf(const VariantSummary::Cell& cell, const MetricName& metric) {
+  if (cell.spread.count == 0) return "<td class=\"n\">–</td>";
+  std::string text = SpreadText(cell.spread, metric);
+  if (cell.difference) {
+    const std::string verdict = VerdictText(*cell.difference);
+    text +=
+        fmt::format("<small class=\"{}\" title=\"{}\">{}<br>[{}]</small>", VerdictClass(verdict),
+                    verdict, PrintedSigned(cell.difference->comparison.difference.mean, metric),
+                    IntervalText(*cell.difference));
+  }
+  return fmt::format("<td class=\"n\" data-label=\"{}\" data-value=\"{}\">{}</td>",
+                     Escaped(Titled(metric)), cell.spread.mean, text);
+}
+
 }  // namespace
+
+std::string VariantSection(const ReportedExperiment& experiment) {
+  const VariantTable table = TabulateVariants(experiment);
+  if (table.rows.size() < 2) return "";
+  std::string html = fmt::format(
+      "<section id=\"summary\"><h2>{} variants, {} runs</h2>\n<p>Mean over all scenes, seeds and "
+      "repeats ± standard deviation over the runs; below it the mean difference to <b>{}</b>, "
+      "paired by scene and seed, with its {:.0f} % bootstrap interval. Green is better, red worse; "
+      "neither where the interval holds zero or there are too few pairs.</p><div class=\"scroll\">"
+      "<table class=\"sortable variants\"><thead><tr><th><button type=\"button\">variant</button>"
+      "</th><th><button type=\"button\">runs</button></th>",
+      table.rows.size(), experiment.finished().size(), Escaped(table.rows.front().name),
+      1e2 * BootstrapSettings{}.confidence);
+  for (const MetricName& metric : table.metrics)
+    html += fmt::format("<th class=\"n\"><button type=\"button\">{}</button></th>",
+                        Escaped(Titled(metric)));
+  html += "</tr></thead><tbody>\n";
+  for (const VariantSummary& row : table.rows) {
+    html += fmt::format(
+        "<tr><td class=\"run\" data-value=\"{0}\">{0}</td><td class=\"n\" data-label=\"runs\" "
+        "data-value=\"{1}\">{1}</td>",
+        Escaped(row.name), row.runs);
+    for (std::size_t m = 0; m < table.metrics.size(); ++m)
+      html += SummaryOf(row.cells[m], table.metrics[m]);
+    html += "</tr>\n";
+  }
+  return html + "</tbody></table></div></section>\n";
+}
 
 std::string ComparisonSection(const ReportedExperiment& experiment) {
   if (ContendersOf(experiment).size() < 2) return "";

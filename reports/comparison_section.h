@@ -1,4 +1,4 @@
-// The report's table of variants against each other.
+// The report's tables of variants against each other.
 #pragma once
 
 #include <string>
@@ -7,7 +7,10 @@
 
 namespace vitruvia {
 
-// HTML; "" where fewer than two variants have finished runs.
+// HTML; both "" where fewer than two variants have finished runs.
+// One row for each variant: means, and differences to the first.
+std::string VariantSection(const ReportedExperiment& experiment);
+// One row for each metric and variant, with pairs and verdicts.
 std::string ComparisonSection(const ReportedExperiment& experiment);
 
 }  // namespace vitruvia

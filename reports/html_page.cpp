@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -35,6 +36,20 @@ std::string VerdictCell(Verdict verdict) {
 
 bool HasFrames(const RunRecord* run) { return !run->frames.empty(); }
 
+// Once for each different text: runs of one sequence lack the same truth.
+std::string NotScoredText(const std::vector<const RunRecord*>& runs) {
+  std::string html;
+  std::set<std::string> told;
+  for (const RunRecord* run : runs) {
+    const auto found = run->summary.find("not_scored");
+    if (found == run->summary.end() || !found->is_string()) continue;
+    const std::string text = fmt::format("{}: {}", run->scene, found->get<std::string>());
+    if (told.insert(text).second)
+      html += fmt::format("<p><b>Not scored</b> · {}</p>", Escaped(text));
+  }
+  return html;
+}
+
 std::string Header(const ReportedExperiment& experiment) {
   const std::size_t finished = experiment.finished().size();
   const std::size_t absent = experiment.runs.size() - finished;
@@ -44,11 +59,12 @@ std::string Header(const ReportedExperiment& experiment) {
   if (absent > 0) status += fmt::format("; <b>{} failed or missing</b>, listed below", absent);
   return fmt::format(
       "<header><p class=\"kicker\"><code>{}</code></p><h1>{}</h1><p>{}</p>"
-      "<p class=\"soft\">{}.</p>"
+      "<p class=\"soft\">{}.</p>{}"
       "<nav><a href=\"#papers\">Paper and ours</a>{}<a href=\"#pictures\">Pictures</a>{}"
       "<a href=\"#runs\">All runs</a><a href=\"#provenance\">Provenance</a></nav></header>\n",
       Escaped(experiment.record.name), Escaped(experiment.record.title),
-      Escaped(experiment.record.description), status, tracked ? "<a href=\"#plots\">Plots</a>" : "",
+      Escaped(experiment.record.description), status, NotScoredText(runs),
+      tracked ? "<a href=\"#plots\">Plots</a>" : "",
       tracked ? "<a href=\"#steps\">Time per step</a>" : "");
 }
 
@@ -127,15 +143,19 @@ std::string PictureLegend(const RunPictures& run) {
           ? ""
           : ColorBar("depth (m)", DepthColor,
                      {fmt::format("{:.1f}", run.nearest_m), fmt::format("{:.1f}", run.farthest_m)});
+  const std::string reconstruction =
+      fmt::format("<span class=\"key\" style=\"background:{}\"></span>reconstruction",
+                  CssColor(kEstimateColor));
+  if (run.error_scale_m == 0.0)
+    return "<div class=\"bars\">" + depth + "<div>" + reconstruction + "</div></div>\n";
   return "<div class=\"bars\">" + depth +
          ColorBar("error (mm)", ErrorColor,
                   {"0", fmt::format("{:g}", 500.0 * run.error_scale_m),
                    fmt::format("≥ {:g}", 1000.0 * run.error_scale_m)}) +
          fmt::format(
-             "<div><span class=\"key\" style=\"background:{}\"></span>reconstruction<br>"
-             "<span class=\"key\" style=\"background:{}\"></span>truth; where both are drawn, the "
-             "nearer shows</div></div>\n",
-             CssColor(kEstimateColor), CssColor(kTruthColor));
+             "<div>{}<br><span class=\"key\" style=\"background:{}\"></span>truth; where both are "
+             "drawn, the nearer shows</div></div>\n",
+             reconstruction, CssColor(kTruthColor));
 }
 
 std::string StripHtml(const RunPictures& run, const PictureStrip& strip) {
@@ -291,6 +311,7 @@ std::string MakePage(const ReportedExperiment& experiment, const std::vector<Dra
       "<title>{}</title><link rel=\"icon\" href=\"data:,\"><style>{}</style></head><body>\n",
       Escaped(experiment.record.title), kPageStyle);
   page += Header(experiment) + "<main>\n";
+  page += VariantSection(experiment);
   page += PaperSection(experiment);
   page += ComparisonSection(experiment);
   page += PlotSection(experiment, figures);

@@ -1,6 +1,7 @@
 #include "reports/mesh_export.h"
 
 #include <numeric>
+#include <optional>
 
 #include <fmt/format.h>
 #include <vtkCellArray.h>
@@ -99,19 +100,23 @@ int ExportMeshes(const fs::path& experiment_folder, const std::string& run_id,
     frames.resize(count);
     std::iota(frames.begin(), frames.end(), 0);
   }
-  const RestCorrespondence correspondence(estimate.rest_mesh(), sequence.true_rest_mesh());
+  const bool has_truth = sequence.info().surface;
+  std::optional<RestCorrespondence> correspondence;
+  if (has_truth) correspondence.emplace(estimate.rest_mesh(), sequence.true_rest_mesh());
   StagedFolder folder(output, kCollectionName);
   for (const int frame : frames) {
     const std::vector<Vector3f> estimated = estimate.ReadVertices(frame);
-    const std::vector<Vector3f> truth = sequence.ReadTrueVertices(frame);
     const auto estimated_surface = SurfaceData(estimated, estimate.rest_mesh().triangles);
-    AddErrors(*estimated_surface, estimated, correspondence.TruePositions(truth));
+    if (has_truth) {
+      const std::vector<Vector3f> truth = sequence.ReadTrueVertices(frame);
+      AddErrors(*estimated_surface, estimated, correspondence->TruePositions(truth));
+      const auto true_surface = SurfaceData(truth, sequence.true_rest_mesh().triangles);
+      WriteSurface(folder.path() / FrameFileName("truth", frame), *true_surface);
+    }
     WriteSurface(folder.path() / FrameFileName("estimate", frame), *estimated_surface);
-    const auto true_surface = SurfaceData(truth, sequence.true_rest_mesh().triangles);
-    WriteSurface(folder.path() / FrameFileName("truth", frame), *true_surface);
   }
   WriteCollection(folder.path(), "estimate", frames, sequence.info().fps);
-  WriteCollection(folder.path(), "truth", frames, sequence.info().fps);
+  if (has_truth) WriteCollection(folder.path(), "truth", frames, sequence.info().fps);
   folder.Commit();
   return static_cast<int>(frames.size());
 }

@@ -2,7 +2,7 @@
 //
 //   estimate_NNNNNN.vtp   the estimated surface: camera frame, metres; point data error_m (float)
 //                         and to_truth_m (3 floats: where each vertex ought to move)
-//   truth_NNNNNN.vtp      the true surface
+//   truth_NNNNNN.vtp      the true surface; where the sequence has none, neither it nor the errors
 //   estimate.pvd, truth.pvd   the frames in order with their times in seconds: open these in
 //   ParaView
 #pragma once

@@ -30,6 +30,7 @@ td.n, th.n { text-align: right; white-space: nowrap; }
 thead th { font-weight: 600; border-bottom: 2px solid var(--ink); vertical-align: bottom; }
 tr.group th { background: var(--band); font-weight: 600; padding-top: .7rem; }
 tr.group small { display: block; font-weight: 400; color: var(--soft); font-size: .88rem; }
+.variants small { display: block; font-size: .82em; font-weight: 400; }
 tr.total td { font-weight: 600; border-top: 2px solid var(--ink); }
 td.problem { color: var(--bad); overflow-wrap: anywhere; }
 .verdict { white-space: nowrap; font-weight: 600; }
@@ -86,6 +87,13 @@ dd { margin: 0; overflow-wrap: anywhere; }
   .compare tr.group { background: var(--band); }
   .compare .problem { grid-column: span 2; }
   .compare td.verdict { grid-column: 1 / -1; }
+  .variants, .variants tbody { display: block; }
+  .variants thead { display: none; }
+  .variants tr { display: grid; grid-template-columns: repeat(2, minmax(0, 1fr));
+                 border-bottom: 1px solid var(--line); padding: .4rem 0; }
+  .variants td { border: 0; padding: .1rem .2rem; text-align: left; white-space: normal; }
+  .variants td.run { grid-column: 1 / -1; font-weight: 600; white-space: normal;
+                     overflow-wrap: anywhere; }
   .papers, .papers tbody { display: block; }
   .papers thead { display: none; }
   .papers tr { display: grid; grid-template-columns: repeat(3, minmax(0, 1fr));
@@ -93,7 +101,8 @@ dd { margin: 0; overflow-wrap: anywhere; }
   .papers td { grid-column: 1 / -1; border: 0; padding: .05rem .2rem; text-align: left; }
   .papers td:first-child { font-weight: 600; }
   .papers td[data-label] { grid-column: auto; white-space: normal; }
-  .papers td[data-label]::before, .compare td[data-label]::before { content: attr(data-label); display: block; color: var(--soft);
+  .papers td[data-label]::before, .compare td[data-label]::before,
+  .variants td[data-label]::before { content: attr(data-label); display: block; color: var(--soft);
                                     font-size: .82em; }
 }
 @media print {
@@ -103,6 +112,7 @@ dd { margin: 0; overflow-wrap: anywhere; }
   figure, .strip, .card, tr { break-inside: avoid; }
   figure.plot svg { min-width: 0; }
   .sortable { font-size: 5.5pt; }
+  .variants { font-size: 7.5pt; }
   .sortable th, .sortable td { padding: 1pt 1.5pt; white-space: normal; overflow-wrap: anywhere; }
   h2, h3, h4 { break-after: avoid; }
   .cells { grid-template-columns: repeat(7, minmax(0, 1fr)); }

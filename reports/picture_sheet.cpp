@@ -68,6 +68,7 @@ void WritePictureSheet(DrawingWriter& writer, const std::filesystem::path& stem,
                     fmt::format("{:.2f}", 0.5 * (run.nearest_m + run.farthest_m)),
                     fmt::format("{:.1f}", run.farthest_m)});
     }
+    if (run.error_scale_m == 0.0) return;
     const double error_column = static_cast<double>(run.titles.size()) - 2.0;
     DrawColorBar(canvas, {kMarginLeft + error_column * (kCell + kCellGap) + 10.0, bar_top},
                  ErrorColor, "error (mm)",

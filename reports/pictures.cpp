@@ -8,18 +8,14 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
 #include "core/progress.h"
-#include "metrics/vertex_error.h"
-#include "records/estimate.h"
 #include "records/surface_strips.h"
 #include "reports/color_maps.h"
 #include "reports/mesh_view.h"
+#include "reports/picture_source.h"
 #include "reports/surface_pictures.h"
-#include "sequence/sequence.h"
 
 namespace vitruvia {
-namespace fs = std::filesystem;
 namespace {
 
 constexpr double kSideViewTurn_deg = 60.0;  // of the second viewpoint, about the vertical
@@ -28,40 +24,11 @@ constexpr double kOverlayOpacity = 0.72;    // of the reconstruction over the de
 constexpr double kSmallestErrorScale_m = 0.01;
 constexpr Color kNoDepth{0xf4, 0xf4, 0xf4};
 
-struct FrameErrors {
-  int frame = 0;
-  std::vector<double> errors_m;  // per vertex of the estimate
-};
-
-// A run's stored data, opened once.
-struct PictureSource {
-  PictureSource(const fs::path& experiment_folder, const RunRecord& run,
-                const std::vector<int>& frames)
-      : sequence((experiment_folder / run.sequence_folder).lexically_normal()),
-        estimate(experiment_folder / run.run_id / "estimate"),
-        correspondence(estimate.rest_mesh(), sequence.true_rest_mesh()) {
-    const int count = std::min(sequence.info().frames, static_cast<int>(estimate.frames().size()));
-    for (const int frame : frames) {
-      if (frame >= 0 && frame < count) errors.push_back({frame, ErrorsOf(frame)});
-    }
-  }
-
-  std::vector<double> ErrorsOf(int frame) const {
-    return VertexErrors(estimate.ReadVertices(frame),
-                        correspondence.TruePositions(sequence.ReadTrueVertices(frame)));
-  }
-
-  SequenceReader sequence;
-  EstimateReader estimate;
-  RestCorrespondence correspondence;
-  std::vector<FrameErrors> errors;  // of the picture frames
-};
-
 double ErrorScale(const std::vector<std::unique_ptr<PictureSource>>& sources) {
   std::vector<double> all;
   for (const auto& source : sources) {
     if (source == nullptr) continue;
-    for (const FrameErrors& frame : source->errors) {
+    for (const PictureFrame& frame : source->frames()) {
       all.insert(all.end(), frame.errors_m.begin(), frame.errors_m.end());
     }
   }
@@ -163,50 +130,52 @@ double Pixels(const PinholeCamera& camera, double length_m, const Vector3f& at) 
 class StripPainter {
  public:
   StripPainter(const PictureSource& source, MeshView& view, RunPictures& run)
-      : source_(source), view_(view), run_(run), camera_(source.sequence.info().camera) {
+      : source_(source), view_(view), run_(run), camera_(source.sequence().info().camera) {
     FindFraming();
     FindDepthRange();
   }
 
-  PictureStrip Paint(const FrameErrors& frame) {
-    const FrameEstimate& tracked = source_.estimate.frames()[static_cast<std::size_t>(frame.frame)];
+  PictureStrip Paint(const PictureFrame& frame) {
+    const FrameEstimate& tracked =
+        source_.estimate().frames()[static_cast<std::size_t>(frame.number)];
     PictureStrip strip;
-    strip.frame = frame.frame;
-    strip.label = fmt::format("frame {}", frame.frame);
-    strip.sublabel = fmt::format("{:.2f} s", frame.frame / source_.sequence.info().fps);
+    strip.frame = frame.number;
+    strip.label = fmt::format("frame {}", frame.number);
+    strip.sublabel = fmt::format("{:.2f} s", frame.number / source_.sequence().info().fps);
     for (const double error_m : frame.errors_m) {
       strip.error_mean_m += error_m / static_cast<double>(frame.errors_m.size());
       strip.error_max_m = std::max(strip.error_max_m, error_m);
     }
-    strip.note = fmt::format("{}{}{} · mean error {:.1f} mm, maximum {:.1f} mm",
-                             Name(tracked.outcome), tracked.message.empty() ? "" : ": ",
-                             tracked.message, 1e3 * strip.error_mean_m, 1e3 * strip.error_max_m);
-    PaintPictures(frame, strip.pictures);
+    strip.note = fmt::format(
+        "{}{}{} · {}", Name(tracked.outcome), tracked.message.empty() ? "" : ": ", tracked.message,
+        source_.has_truth() ? fmt::format("mean error {:.1f} mm, maximum {:.1f} mm",
+                                          1e3 * strip.error_mean_m, 1e3 * strip.error_max_m)
+                            : "no true surface");
+    if (source_.has_truth()) {
+      PaintWithTruth(frame, strip.pictures);
+    } else {
+      PaintAlone(frame, strip.pictures);
+    }
     return strip;
   }
 
  private:
-  void PaintPictures(const FrameErrors& frame, std::vector<ColorImage>& pictures) {
-    const auto truth = source_.sequence.ReadTrueVertices(frame.frame);
-    const auto estimate = source_.estimate.ReadVertices(frame.frame);
+  void PaintWithTruth(const PictureFrame& frame, std::vector<ColorImage>& pictures) {
+    const auto truth = source_.sequence().ReadTrueVertices(frame.number);
+    const auto estimate = source_.estimate().ReadVertices(frame.number);
     const Vector3f middle = Middle(truth);
     const auto truth_side = Turned(truth, middle), estimate_side = Turned(estimate, middle);
     const PictureWindow front =
         Centered(Projected(camera_, truth), Pixels(camera_, framing_.front_m, middle));
     const PictureWindow side =
         Centered(Projected(camera_, truth_side), Pixels(camera_, framing_.side_m, middle));
-    const auto& estimate_triangles = source_.estimate.rest_mesh().triangles;
-    const auto& true_triangles = source_.sequence.true_rest_mesh().triangles;
+    const auto& estimate_triangles = source_.estimate().rest_mesh().triangles;
+    const auto& true_triangles = source_.sequence().true_rest_mesh().triangles;
     const std::vector<Color> errors = ErrorColors(frame.errors_m, run_.error_scale_m);
     const ShadedMesh shown_truth{&truth_side, &true_triangles, {kTruthColor}};
     const ShadedMesh shown_estimate{&estimate_side, &estimate_triangles, {kEstimateColor}};
 
-    const ColorImage depth = DepthPicture(source_.sequence.ReadDepth(frame.frame), front,
-                                          run_.nearest_m, run_.farthest_m);
-    const ColorImage seen =
-        view_.Draw(camera_, front, {{&estimate, &estimate_triangles, {kEstimateColor}}});
-    pictures.push_back(depth);
-    pictures.push_back(Over(seen, depth, kOverlayOpacity));
+    PaintDepth(frame, front, estimate, pictures);
     pictures.push_back(OnWhite(view_.Draw(camera_, side, {shown_estimate})));
     pictures.push_back(OnWhite(view_.Draw(camera_, side, {shown_truth})));
     pictures.push_back(OnWhite(view_.Draw(camera_, side, {shown_truth, shown_estimate})));
@@ -216,24 +185,49 @@ class StripPainter {
         OnWhite(view_.Draw(camera_, side, {{&estimate_side, &estimate_triangles, errors}})));
   }
 
+  // What the sensor saw, and the reconstruction over it.
+  void PaintDepth(const PictureFrame& frame, const PictureWindow& front,
+                  const std::vector<Vector3f>& estimate, std::vector<ColorImage>& pictures) {
+    const auto& triangles = source_.estimate().rest_mesh().triangles;
+    const ColorImage depth = DepthPicture(source_.sequence().ReadDepth(frame.number), front,
+                                          run_.nearest_m, run_.farthest_m);
+    const ColorImage seen = view_.Draw(camera_, front, {{&estimate, &triangles, {kEstimateColor}}});
+    pictures.push_back(depth);
+    pictures.push_back(Over(seen, depth, kOverlayOpacity));
+  }
+
+  void PaintAlone(const PictureFrame& frame, std::vector<ColorImage>& pictures) {
+    const auto estimate = source_.estimate().ReadVertices(frame.number);
+    const Vector3f middle = Middle(estimate);
+    const auto from_side = Turned(estimate, middle);
+    const auto window = [&](const std::vector<Vector3f>& points, double extent_m) {
+      return Centered(Projected(camera_, points), Pixels(camera_, extent_m, middle));
+    };
+    PaintDepth(frame, window(estimate, framing_.front_m), estimate, pictures);
+    const auto& triangles = source_.estimate().rest_mesh().triangles;
+    pictures.push_back(OnWhite(view_.Draw(camera_, window(from_side, framing_.side_m),
+                                          {{&from_side, &triangles, {kEstimateColor}}})));
+  }
+
   void FindFraming() {
-    for (const FrameErrors& frame : source_.errors) {
-      const auto truth = source_.sequence.ReadTrueVertices(frame.frame);
-      const Vector3f middle = Middle(truth);
+    for (const PictureFrame& frame : source_.frames()) {
+      const auto body = source_.has_truth() ? source_.sequence().ReadTrueVertices(frame.number)
+                                            : source_.estimate().ReadVertices(frame.number);
+      const Vector3f middle = Middle(body);
       const double one_meter = Pixels(camera_, 1.0, middle) / kMargin;
       const auto widen = [&](double& extent_m, const std::vector<Vector3f>& points) {
         extent_m = std::max(extent_m, Projected(camera_, points).extent() / one_meter);
       };
-      widen(framing_.front_m, truth);
-      widen(framing_.side_m, Turned(truth, middle));
+      widen(framing_.front_m, body);
+      widen(framing_.side_m, Turned(body, middle));
     }
   }
 
   // Ends of the depth colours: the measured range in steps of a decimetre.
   void FindDepthRange() {
     float nearest = std::numeric_limits<float>::max(), farthest = 0.0f;
-    for (const FrameErrors& frame : source_.errors) {
-      const DepthImage depth = source_.sequence.ReadDepth(frame.frame);
+    for (const PictureFrame& frame : source_.frames()) {
+      const DepthImage depth = source_.sequence().ReadDepth(frame.number);
       for (const float z_m : depth.pixels()) {
         if (z_m <= 0.0f) continue;
         nearest = std::min(nearest, z_m);
@@ -252,21 +246,6 @@ class StripPainter {
   Framing framing_;
 };
 
-// Null, and the reason in `problem`, where stored data is gone or damaged: a report can do without
-// its pictures, but must say so.
-std::unique_ptr<PictureSource> Open(const ReportedExperiment& experiment, const RunRecord& run,
-                                    std::string& problem) {
-  try {
-    auto source =
-        std::make_unique<PictureSource>(experiment.folder, run, experiment.record.picture_frames);
-    if (source->errors.empty()) problem = "the run has none of the experiment's picture frames";
-    return source;
-  } catch (const DataError& error) {
-    problem = error.what();
-    return nullptr;
-  }
-}
-
 }  // namespace
 
 const std::vector<std::string>& PictureTitles() {
@@ -281,6 +260,10 @@ const std::vector<std::string>& PictureTitles() {
   return titles;
 }
 
+std::vector<std::string> PictureTitlesWithoutTruth() {
+  return {PictureTitles().begin(), PictureTitles().begin() + 3};
+}
+
 std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment) {
   std::vector<RunPictures> all;
   std::vector<std::unique_ptr<PictureSource>> sources;
@@ -291,9 +274,11 @@ std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment) {
     if (HasSurfaceStrips(experiment.folder / run->run_id)) {
       sources.push_back(nullptr);
     } else {
-      pictures.titles = PictureTitles();
-      sources.push_back(Open(experiment, *run, pictures.problem));
-      if (sources.back()) strips += static_cast<int>(sources.back()->errors.size());
+      sources.push_back(OpenPictureSource(experiment, *run, pictures.problem));
+      if (const PictureSource* source = sources.back().get()) {
+        pictures.titles = source->has_truth() ? PictureTitles() : PictureTitlesWithoutTruth();
+        strips += static_cast<int>(source->frames().size());
+      }
     }
     all.push_back(std::move(pictures));
   }
@@ -306,9 +291,9 @@ std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment) {
       DrawSurfaceStrips(experiment.folder / all[r].run_id, view, all[r]);
       continue;
     }
-    all[r].error_scale_m = error_scale_m;
+    if (sources[r]->has_truth()) all[r].error_scale_m = error_scale_m;
     StripPainter painter(*sources[r], view, all[r]);
-    for (const FrameErrors& frame : sources[r]->errors) {
+    for (const PictureFrame& frame : sources[r]->frames()) {
       all[r].strips.push_back(painter.Paint(frame));
       progress.Advance();
     }

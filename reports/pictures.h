@@ -25,12 +25,13 @@ struct RunPictures {
   std::string problem;                       // why there are none; "" when all is well
   std::vector<std::string> titles;           // of a strip's pictures
   double nearest_m = 0.0, farthest_m = 0.0;  // ends of the depth colours; both 0: no depth shown
-  double error_scale_m = 0.0;                // end of the error colours
+  double error_scale_m = 0.0;                // end of the error colours; 0: no error shown
   std::vector<PictureStrip> strips;
 };
 
-// Of a tracking run's strips.
+// Of a tracking run's strips; of one whose sequence has no true surface the first three.
 const std::vector<std::string>& PictureTitles();
+std::vector<std::string> PictureTitlesWithoutTruth();
 
 // One entry per finished run: at the experiment's picture frames that the run has, or, of a run
 // that left surfaces instead of frames (records/surface_strips.h), those. The error of a vertex is

@@ -61,6 +61,7 @@ std::vector<Series> LinesPerFrame(const Runs& runs, const std::string& key,
                                   double (*unit_of)(const RunRecord&)) {
   std::vector<Series> lines;
   for (std::size_t r = 0; r < runs.size(); ++r) {
+    if (!runs[r]->frames.contains(key)) continue;  // measured against truth that it has not
     Series line;
     line.name = runs[r]->run_id;
     line.color = kRunColors[r];
@@ -79,6 +80,12 @@ std::vector<Series> LinesPerFrame(const Runs& runs, const std::string& key,
 
 double One(const RunRecord& /*run*/) { return 1.0; }
 double Diagonal(const RunRecord& run) { return run.diagonal_m; }
+
+bool HasSurfaceErrors(const RunRecord& run) { return run.frames.contains("l2_mean_m"); }
+bool HasJointErrors(const RunRecord& run) { return !run.joint_accuracy.empty(); }
+bool HasOnlyJointErrors(const RunRecord& run) {
+  return HasJointErrors(run) && !HasSurfaceErrors(run);
+}
 
 double LastFrame(const Runs& runs) {
   std::size_t frames = 2;
@@ -104,6 +111,30 @@ Figure ErrorFigure(const ExperimentRecord& experiment, const RunGroup& group) {
                 "L2 error / diagonal",
                 LinesPerFrame(group.runs, "l2_max_m", Diagonal),
                 PublishedReferences(experiment, "l2_max_of_diagonal"),
+                {}};
+  mean.x_end = maximum.x_end = LastFrame(group.runs);
+  figure.panels = {std::move(mean), std::move(maximum)};
+  return figure;
+}
+
+Figure JointErrorFigure(const ExperimentRecord& experiment, const RunGroup& group) {
+  Figure figure;
+  figure.name = "joint-error-per-frame";
+  figure.title = "Joint error per frame";
+  figure.caption =
+      "Mean and maximum distance between estimated and true joints. The sequence has no true "
+      "surface.";
+  Panel mean{"mean over the joints",
+             kFrameAxis,
+             "error (m)",
+             LinesPerFrame(group.runs, "joint_error_mean_m", One),
+             PublishedReferences(experiment, "joint_error_mean_m"),
+             {}};
+  Panel maximum{"maximum over the joints",
+                kFrameAxis,
+                "error (m)",
+                LinesPerFrame(group.runs, "joint_error_max_m", One),
+                PublishedReferences(experiment, "joint_error_max_m"),
                 {}};
   mean.x_end = maximum.x_end = LastFrame(group.runs);
   figure.panels = {std::move(mean), std::move(maximum)};
@@ -165,8 +196,13 @@ std::vector<Figure> MakeFigures(const ReportedExperiment& experiment) {
   std::erase_if(runs, [](const RunRecord* run) { return run->frames.empty(); });
   const std::vector<RunGroup> groups = Grouped(runs);
   if (groups.empty()) return figures;
-  const auto add_for_each_group = [&](Figure (*make)(const ExperimentRecord&, const RunGroup&)) {
+  // For those groups of which some run measured what the figure shows.
+  const auto add_for_each_group = [&](Figure (*make)(const ExperimentRecord&, const RunGroup&),
+                                      bool (*has)(const RunRecord&)) {
     for (const RunGroup& group : groups) {
+      if (std::none_of(group.runs.begin(), group.runs.end(),
+                       [has](const RunRecord* run) { return has(*run); }))
+        continue;
       Figure figure = make(experiment.record, group);
       if (!group.suffix.empty()) {
         figure.name = fmt::format("{}-{}", figure.name, FileSafe(group.suffix));
@@ -175,10 +211,11 @@ std::vector<Figure> MakeFigures(const ReportedExperiment& experiment) {
       figures.push_back(std::move(figure));
     }
   };
-  add_for_each_group(ErrorFigure);
+  add_for_each_group(ErrorFigure, HasSurfaceErrors);
+  add_for_each_group(JointErrorFigure, HasOnlyJointErrors);
   figures.push_back(MakeSpeedFigure(experiment));
-  add_for_each_group(AccuracyFigure);
-  add_for_each_group(TimeFigure);
+  add_for_each_group(AccuracyFigure, HasJointErrors);
+  add_for_each_group(TimeFigure, [](const RunRecord&) { return true; });
   return figures;
 }
 

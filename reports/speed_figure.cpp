@@ -16,7 +16,20 @@
 namespace vitruvia {
 namespace {
 
-constexpr const char* kErrorMetric = "l2_mean_of_diagonal";
+// What stands for a variant's error: of the surface, or of the joints where no sequence has a true
+// surface.
+constexpr const char* kSurfaceMetric = "l2_mean_of_diagonal";
+constexpr const char* kJointMetric = "joint_error_mean_m";
+
+const char* ErrorMetricOf(const ReportedExperiment& experiment) {
+  const auto runs = experiment.finished();
+  const auto has = [&runs](const char* key) {
+    return std::any_of(runs.begin(), runs.end(),
+                       [key](const RunRecord* run) { return !std::isnan(MetricValue(*run, key)); });
+  };
+  return !has(kSurfaceMetric) && has(kJointMetric) ? kJointMetric : kSurfaceMetric;
+}
+
 // An axis whose values differ by more than this factor is logarithmic.
 constexpr double kWideRange = 20.0;
 constexpr Color kFrontInk{0x55, 0x55, 0x55};
@@ -28,13 +41,13 @@ struct SpeedPoint {
   bool on_front = false;
 };
 
-SpeedPoint PointOf(const Contender& contender) {
+SpeedPoint PointOf(const Contender& contender, const char* error_metric) {
   std::vector<double> frame_ms, errors;
   for (const RunRecord* run : contender.runs) {
     const auto found = run->frames.find("frame_ms");
     if (found == run->frames.end()) continue;
     frame_ms.insert(frame_ms.end(), found->second.begin(), found->second.end());
-    errors.push_back(MetricValue(*run, kErrorMetric));
+    errors.push_back(MetricValue(*run, error_metric));
   }
   if (frame_ms.empty()) return {contender.name, NAN, NAN, NAN};
   return {contender.name, Quantile(frame_ms, 0.5), Quantile(frame_ms, 0.95), Mean(errors)};
@@ -44,7 +57,7 @@ std::vector<SpeedPoint> PointsOf(const ReportedExperiment& experiment) {
   std::vector<SpeedPoint> points;
   std::vector<Costs> costs;
   for (const Contender& contender : ContendersOf(experiment)) {
-    const SpeedPoint point = PointOf(contender);
+    const SpeedPoint point = PointOf(contender, ErrorMetricOf(experiment));
     if (std::isnan(point.median_ms) || std::isnan(point.error)) continue;
     points.push_back(point);
     costs.push_back({point.median_ms, point.error});
@@ -113,14 +126,16 @@ std::vector<Reference> PublishedReferences(const ExperimentRecord& experiment,
   for (const Expectation& e : experiment.expectations) {
     if (e.metric != metric || std::isnan(e.paper)) continue;
     const MetricName name = NameOfMetric(metric);
-    references.push_back({fmt::format("{}: {:g}{}{}", e.source, e.paper * name.scale,
-                                      name.unit.empty() ? "" : " ", name.unit),
-                          e.paper});
+    references.push_back(
+        {fmt::format("{}: {:g}{}{}{}", e.source, e.paper * name.scale, name.unit.empty() ? "" : " ",
+                     name.unit, e.not_comparable.empty() ? "" : ", not comparable"),
+         e.paper});
   }
   return references;
 }
 
 Figure MakeSpeedFigure(const ReportedExperiment& experiment) {
+  const char* error_metric = ErrorMetricOf(experiment);
   Figure figure;
   figure.name = kSpeedFigure;
   figure.title = "Speed against error";
@@ -133,9 +148,9 @@ Figure MakeSpeedFigure(const ReportedExperiment& experiment) {
       CalibrationText(experiment);
   Panel panel{"",
               "time per frame, median and 95th percentile (ms)",
-              "mean L2 error / diagonal",
+              error_metric == kSurfaceMetric ? "mean L2 error / diagonal" : "mean joint error (m)",
               {},
-              PublishedReferences(experiment.record, kErrorMetric),
+              PublishedReferences(experiment.record, error_metric),
               PublishedReferences(experiment.record, "frame_ms_median")};
   const std::vector<SpeedPoint> points = PointsOf(experiment);
   std::vector<double> times_ms, errors;

@@ -1,4 +1,8 @@
 // CSV and LaTeX forms of the tables.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
 #include <fmt/format.h>
 
 #include "reports/tables.h"
@@ -113,20 +117,32 @@ std::string LatexSummary(const ReportedExperiment& experiment) {
 
 }  // namespace
 
+namespace {
+
+// Those that a column of differences can be taken from.
+std::vector<Expectation> PublishedNumbers(const ExperimentRecord& experiment) {
+  std::vector<Expectation> published;
+  std::copy_if(
+      experiment.expectations.begin(), experiment.expectations.end(), std::back_inserter(published),
+      [](const Expectation& e) { return !std::isnan(e.paper) && e.not_comparable.empty(); });
+  return published;
+}
+
+}  // namespace
+
 std::string ToCsv(const ReportedExperiment& experiment) {
   const SummaryTable table = MakeSummaryTable(experiment);
   std::string csv;
   for (const MetricName& column : table.columns) csv += CsvCell(column.key) + ",";
   csv += "status";
-  for (const Expectation& e : experiment.record.expectations) {
-    csv += fmt::format(",{0}_paper,{0}_difference", e.metric);
-  }
+  const std::vector<Expectation> published = PublishedNumbers(experiment.record);
+  for (const Expectation& e : published) csv += fmt::format(",{0}_paper,{0}_difference", e.metric);
   csv += "\r\n";
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
     const SummaryTable::Row& row = table.rows[r];
     for (const nlohmann::json& cell : row.cells) csv += CsvCell(cell) + ",";
     csv += CsvCell(CsvStatus(row.problem));
-    for (const Expectation& e : experiment.record.expectations) {
+    for (const Expectation& e : published) {
       const auto& record = experiment.runs[r].record;
       const bool about = !record || e.IsAbout(record->scene);
       csv += fmt::format(",{},", about ? CsvCell(nlohmann::json(e.paper)) : "");

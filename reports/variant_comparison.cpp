@@ -20,6 +20,11 @@ constexpr std::array kComparedMetrics = {
     "surface_mean_m",     "surface_max_m",      "height_error_m",      "weight_error_kg",
     "frame_ms_median",    "frame_ms_p95",       kCalibratedTime};
 
+// What one looks at first.
+constexpr std::array kTabulatedMetrics = {
+    "frames_failed",      "l2_mean_of_diagonal", "l2_max_of_diagonal", "joint_error_mean_m",
+    "joints_within_10cm", "surface_mean_m",      "surface_max_m",      "frame_ms_median"};
+
 struct RunPair {
   const RunRecord* reference;
   const RunRecord* other;
@@ -144,6 +149,26 @@ std::vector<Contender> ContendersByFullName(const ReportedExperiment& experiment
   return contenders;
 }
 
+std::vector<double> ValuesOf(const Contender& contender, const std::string& metric) {
+  std::vector<double> values;
+  for (const RunRecord* run : contender.runs) {
+    const double value = MetricValue(*run, metric);
+    if (!std::isnan(value)) values.push_back(value);
+  }
+  return values;
+}
+
+std::vector<MetricName> TabulatedMetrics(const std::vector<Contender>& contenders) {
+  std::vector<MetricName> metrics;
+  for (const char* metric : kTabulatedMetrics) {
+    if (std::any_of(contenders.begin(), contenders.end(), [metric](const Contender& contender) {
+          return !ValuesOf(contender, metric).empty();
+        }))
+      metrics.push_back(NameOfMetric(metric));
+  }
+  return metrics;
+}
+
 }  // namespace
 
 std::vector<Contender> ContendersOf(const ReportedExperiment& experiment) {
@@ -182,6 +207,24 @@ std::vector<VariantComparison> CompareVariants(const ReportedExperiment& experim
     if (&contender != &*chosen) all.push_back(Paired(*chosen, contender));
   }
   return Table(all, metrics);
+}
+
+VariantTable TabulateVariants(const ReportedExperiment& experiment) {
+  const std::vector<Contender> contenders = ContendersOf(experiment);
+  VariantTable table{TabulatedMetrics(contenders), {}};
+  for (const Contender& contender : contenders) {
+    const bool is_reference = &contender == &contenders.front();
+    const PairedRuns paired = Paired(contenders.front(), contender);
+    VariantSummary row{contender.name, static_cast<int>(contender.runs.size()), {}};
+    for (const MetricName& metric : table.metrics) {
+      row.cells.push_back({SpreadOf(ValuesOf(contender, metric.key)), std::nullopt});
+      if (is_reference) continue;
+      const VariantComparison difference = Compared(paired, metric.key);
+      if (difference.other_spread.count > 0) row.cells.back().difference = difference;
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
 }
 
 std::vector<VariantComparison> CompareExperiments(const ReportedExperiment& reference,

@@ -1,6 +1,7 @@
 // Variants against each other: over the runs of one experiment, or of two folders.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,25 @@ std::vector<VariantComparison> CompareVariants(const ReportedExperiment& experim
 std::vector<VariantComparison> CompareExperiments(const ReportedExperiment& reference,
                                                   const ReportedExperiment& other,
                                                   const std::vector<std::string>& metrics);
+
+// An experiment in one row for each contender: means over its scenes, seeds and repeats.
+struct VariantSummary {
+  struct Cell {
+    SampleSpread spread;  // over all its finished runs that have the metric
+    // Against the reference, over pairs; nothing for the reference itself or without a pair.
+    std::optional<VariantComparison> difference;
+  };
+  std::string name;
+  int runs = 0;
+  std::vector<Cell> cells;  // one for each metric of the table
+};
+struct VariantTable {
+  std::vector<MetricName> metrics;   // the few that a reader looks at first
+  std::vector<VariantSummary> rows;  // the first is the reference
+};
+VariantTable TabulateVariants(const ReportedExperiment& experiment);
+// { "confidence", "reference", "rows": [ { "variant", "runs", "metrics": { … } } ] }
+nlohmann::json ToJson(const VariantTable& table);
 
 // "lower (better)", "higher (worse)", "no difference", "too few pairs".
 std::string VerdictText(const VariantComparison& row);

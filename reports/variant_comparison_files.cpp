@@ -53,6 +53,30 @@ nlohmann::json ToJson(const std::vector<VariantComparison>& rows) {
   return {{"confidence", BootstrapSettings{}.confidence}, {"rows", list}};
 }
 
+nlohmann::json ToJson(const VariantTable& table) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const VariantSummary& row : table.rows) {
+    nlohmann::json metrics = nlohmann::json::object();
+    for (std::size_t m = 0; m < table.metrics.size(); ++m) {
+      const VariantSummary::Cell& cell = row.cells[m];
+      if (cell.spread.count == 0) continue;
+      nlohmann::json& metric = metrics[table.metrics[m].key];
+      metric = SpreadToJson(cell.spread);
+      if (!cell.difference) continue;
+      const PairedComparison& c = cell.difference->comparison;
+      metric["difference"] = {
+          {"mean", NumberOrNull(c.difference.mean)},
+          {"interval", {NumberOrNull(c.interval.low), NumberOrNull(c.interval.high)}},
+          {"pairs", c.difference.count},
+          {"verdict", VerdictText(*cell.difference)}};
+    }
+    rows.push_back({{"variant", row.name}, {"runs", row.runs}, {"metrics", metrics}});
+  }
+  return {{"confidence", BootstrapSettings{}.confidence},
+          {"reference", table.rows.empty() ? "" : table.rows.front().name},
+          {"rows", rows}};
+}
+
 std::string ToCsv(const std::vector<VariantComparison>& rows) {
   std::string csv =
       "metric,reference,other,pairs,unpaired_runs,reference_mean,reference_deviation,other_mean,"

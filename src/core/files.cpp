@@ -1,6 +1,8 @@
 #include "core/files.h"
 
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -9,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/write_failure.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -45,22 +48,26 @@ std::string ReadWholeFile(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+void FailToWrite(const fs::path& file, int error) {
+  throw RunError(fmt::format("{}: cannot be written: {}", file.string(),
+                             error == 0 ? "no reason is known" : std::strerror(error)));
+}
+
 void WriteWholeFile(const fs::path& file, std::string_view content) {
   const fs::path temporary = TemporaryName(file);
-  std::error_code error;
+  int error = 0;
   {
+    errno = 0;
     std::ofstream stream(temporary, std::ios::binary);
     stream.write(content.data(), static_cast<std::streamsize>(content.size()));
     stream.close();
-    if (!stream) error = std::make_error_code(std::errc::io_error);
+    if (!stream) error = errno != 0 ? errno : EIO;
   }
-  if (!error) fs::rename(temporary, file, error);
-  if (error) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw RunError(fmt::format("{}: cannot be written (folder missing, not writable, or disk full)",
-                               file.string()));
-  }
+  std::error_code not_renamed, ignored;
+  if (error == 0) fs::rename(temporary, file, not_renamed);
+  if (error == 0 && !not_renamed) return;
+  fs::remove(temporary, ignored);
+  FailToWrite(file, error != 0 ? error : not_renamed.value());
 }
 
 void MakeFolder(const fs::path& folder) {

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cerrno>
 #include <fstream>
 
 #include "core/files.h"
+#include "core/write_failure.h"
 #include "geometry/mesh_io.h"
 #include "records/json_node.h"
 
@@ -116,7 +118,12 @@ struct EstimateWriter::State {
       : folder(std::move(destination), kIndexFile),
         vertex_count(rest_mesh.vertices.size()),
         vertices(folder.path() / kVerticesFile, std::ios::binary) {
+    RequireWritten();
     WriteMesh(folder.path() / kMeshFile, rest_mesh);
+  }
+
+  void RequireWritten() const {
+    if (!vertices) FailToWrite(folder.path() / kVerticesFile, errno);
   }
 
   StagedFolder folder;
@@ -139,14 +146,12 @@ void EstimateWriter::Append(const TrackResult& result, double frame_ms) {
   state_->frames.push_back(JsonOfFrame(result, frame_ms, index));
   state_->vertices.write(reinterpret_cast<const char*>(result.vertices.data()),
                          static_cast<std::streamsize>(state_->vertex_count * sizeof(Vector3f)));
+  state_->RequireWritten();
 }
 
 void EstimateWriter::Finish(std::optional<double> tracker_memory_mb) {
   state_->vertices.close();
-  if (!state_->vertices) {
-    throw RunError(fmt::format("{}: cannot be written (disk full?)",
-                               (state_->folder.path() / kVerticesFile).string()));
-  }
+  state_->RequireWritten();
   Json index = {{"format", kFormat},
                 {"version", kVersion},
                 {"vertex_count", state_->vertex_count},

@@ -44,11 +44,12 @@ struct RunRecord {
   nlohmann::json config;      // resolved: { "scene": …, "method": … }
   nlohmann::json provenance;  // commit, compiler, flags, CPU, threads (core/build_info.h)
   nlohmann::json summary;     // the row: flat, metric → number or text
-  // Per frame, all of one length. At least: l2_mean_m, l2_max_m, l2_mean_visible_m,
-  // l2_mean_hidden_m, joint_error_mean_m, frame_ms, iterations, failed (0 or 1).
+  // Per frame, all of one length. At least: frame_ms, iterations, failed (0 or 1); where the
+  // sequence has true joints joint_error_mean_m, NaN in a frame without any; where it has a true
+  // surface l2_mean_m, l2_max_m, l2_mean_visible_m, l2_mean_hidden_m.
   std::map<std::string, std::vector<double>> frames;
   // Share of (frame, joint) pairs with an error of at most threshold_m[i], per class all / visible
-  // / hidden.
+  // / hidden; without classes that have no pair.
   std::vector<double> threshold_m;
   std::map<std::string, std::vector<double>> joint_accuracy;
   std::map<std::string, double> joint_error_mean_m;  // per joint name
@@ -57,7 +58,7 @@ struct RunRecord {
     double median_ms = 0, p95_ms = 0, max_ms = 0;
   };
   std::vector<Step> steps;  // per frame, in the method's order
-  double diagonal_m = 0.0;  // of the true subject's rest-pose bounding box
+  double diagonal_m = 0.0;  // of the true subject's rest-pose bounding box; 0: no true surface
 
   friend void to_json(nlohmann::json& json, const RunRecord& r);
   friend void from_json(const nlohmann::json& json, RunRecord& r);

@@ -1,6 +1,7 @@
-// The sequence format: depth frames of one subject with their ground truth.
+// The sequence format: depth frames of one subject with what is known of their ground truth.
 //
-//   sequence.json        format, version, camera, depth_unit_m, fps, frames, joints, provenance
+//   sequence.json        format, version, camera, depth_unit_m, fps, frames, joints, surface,
+//                        subject, provenance
 //   depth/000000.png     16-bit, × depth_unit_m metres along z, 0 = no measurement
 //   mask/000000.png      optional, 8-bit: 0 = background; all frames have one or none has
 //   truth/joints.json    per frame and joint: position (camera frame, metres), visible flag
@@ -8,11 +9,14 @@
 //   truth/vertices.bin   float32 [frames][vertices][3], camera frame, metres, little-endian
 //   subject/             what a tracker may know (see body/body_model.h)
 //
+// True joints, the true surface and the subject are there or not, as sequence.json says.
+//
 // FORMAT.md beside this file tells users how to bring their own data.
 #pragma once
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,13 +33,20 @@ struct SequenceInfo {
   double depth_unit_m = 0.001;
   double fps = 30.0;
   int frames = 0;
-  std::vector<std::string> joints;                       // names, in the order of truth/joints.json
+  std::vector<std::string> joints;  // names, in the order of truth/joints.json; none: no such file
+  bool surface = true;              // whether the true surface is there: mesh.ply and vertices.bin
+  bool subject = true;              // whether there is a subject/
   nlohmann::json provenance = nlohmann::json::object();  // how it was made; free form
 };
 
 struct JointTruth {
   std::vector<Vector3<double>> positions;  // camera frame, metres
   std::vector<bool> visible;  // seen by the camera: not behind anything, not out of view
+  // Whether the recording holds the joint in this frame; where not, its position means nothing and
+  // it is not visible. Empty: all are known.
+  std::vector<bool> known{};
+
+  bool Knows(std::size_t joint) const { return known.empty() || known[joint]; }
 };
 
 // Reads lazily: construction checks the small files and the sizes of the large ones, frames are
@@ -46,10 +57,12 @@ class SequenceReader {
 
   const std::filesystem::path& folder() const { return folder_; }
   const SequenceInfo& info() const { return info_; }
-  const BodyModel& subject() const { return subject_; }
-  const TriangleMesh& true_rest_mesh() const { return true_rest_mesh_; }
+  // DataError that says what to do if the sequence has none.
+  const BodyModel& subject() const;
   DepthImage ReadDepth(int frame) const;  // mask applied where there is one
+  // Only where info() says that there are true joints or a true surface.
   const JointTruth& true_joints(int frame) const;
+  const TriangleMesh& true_rest_mesh() const;
   std::vector<Vector3f> ReadTrueVertices(int frame) const;
   // Of every file's name and content, in sorted order, 16 hex digits. The provenance is left out:
   // the same data made again by another build has the same hash.
@@ -57,6 +70,8 @@ class SequenceReader {
 
  private:
   void RequireFrame(int frame) const;
+  void RequireSurface() const;
+  void ReadTruth();
 
   std::filesystem::path folder_;
   SequenceInfo info_;
@@ -72,11 +87,15 @@ class SequenceWriter {
  public:
   SequenceWriter(std::filesystem::path folder, SequenceInfo info, const BodyModel& subject,
                  const TriangleMesh& true_rest_mesh);
+  // Without a true surface: frames are appended without vertices.
+  SequenceWriter(std::filesystem::path folder, SequenceInfo info,
+                 const std::optional<BodyModel>& subject);
   ~SequenceWriter();
 
   // Sizes must be those of the camera, the mesh and info.joints; values must be finite.
   void Append(const DepthImage& depth, const std::vector<Vector3f>& true_vertices,
               const JointTruth& joints);
+  void Append(const DepthImage& depth, const JointTruth& joints);
   // Adds what only came to light on the way to the provenance.
   void Note(const std::string& key, nlohmann::json value);
   void Finish();  // throws std::logic_error unless exactly info.frames frames were appended

@@ -32,7 +32,11 @@ struct SequenceHeader {
     f.Integer("frames", info.frames,
               {.meaning = "number of frames", .min = 1, .max = kMostFrames, .required = true});
     f.Texts("joints", info.joints,
-            {.meaning = "names, in the order of truth/joints.json", .required = true});
+            {.meaning = "names, in the order of truth/joints.json; none: there is no such file",
+             .required = true});
+    f.Flag("surface", info.surface,
+           {.meaning = "whether there is a true surface: truth/mesh.ply and truth/vertices.bin"});
+    f.Flag("subject", info.subject, {.meaning = "whether there is a subject/"});
     f.FreeJson("provenance", info.provenance, {.meaning = "how the sequence was made"});
   }
 
@@ -98,13 +102,19 @@ JointTruth ParsedJoints(const Json& json, const SequenceInfo& info, const std::s
     const Json& p = positions[j];
     const bool is_point =
         p.is_array() && p.size() == 3 && p[0].is_number() && p[1].is_number() && p[2].is_number();
-    if (!is_point || !visible[j].is_boolean()) {
+    const bool is_unknown = p.is_null() && visible[j] == false;
+    if (!(is_point || is_unknown) || !visible[j].is_boolean()) {
       Damaged(file, fmt::format("{}joint \"{}\": expected three numbers and a visible flag of true "
-                                "or false, got {} and {}",
+                                "or false, or null and false, got {} and {}",
                                 where, info.joints[j], p.dump(), visible[j].dump()));
     }
-    joints.positions.emplace_back(p[0].get<double>(), p[1].get<double>(), p[2].get<double>());
+    if (is_unknown) {
+      joints.positions.emplace_back(Vector3<double>::Zero());
+    } else {
+      joints.positions.emplace_back(p[0].get<double>(), p[1].get<double>(), p[2].get<double>());
+    }
     joints.visible.push_back(visible[j].get<bool>());
+    joints.known.push_back(is_point);
   }
   return joints;
 }
@@ -140,7 +150,7 @@ SequenceInfo ReadSequenceInfo(const fs::path& file) {
     throw DataError(error.what());
   }
   Json complete = WriteSettings(header);
-  complete.erase("provenance");
+  for (const char* optional : {"surface", "subject", "provenance"}) complete.erase(optional);
   if (const std::string missing = MissingKey(json, complete); !missing.empty()) {
     Damaged(file, fmt::format("{}: missing", missing));
   }
@@ -148,7 +158,11 @@ SequenceInfo ReadSequenceInfo(const fs::path& file) {
 }
 
 Json SequenceInfoJson(const SequenceInfo& info) {
-  return WriteSettings(SequenceHeader{kSequenceFormat, kSequenceVersion, info});
+  Json json = WriteSettings(SequenceHeader{kSequenceFormat, kSequenceVersion, info});
+  // That something is there goes without saying: complete sequences keep their hash.
+  if (info.surface) json.erase("surface");
+  if (info.subject) json.erase("subject");
+  return json;
 }
 
 std::string JointTruthProblem(const JointTruth& joints, std::size_t joint_count) {
@@ -156,8 +170,14 @@ std::string JointTruthProblem(const JointTruth& joints, std::size_t joint_count)
     return fmt::format("expected {} joints, got {} positions and {} visible flags", joint_count,
                        joints.positions.size(), joints.visible.size());
   }
+  if (!joints.known.empty() && joints.known.size() != joint_count) {
+    return fmt::format("expected {} joints, got {} known flags", joint_count, joints.known.size());
+  }
   for (std::size_t j = 0; j < joint_count; ++j) {
-    if (!joints.positions[j].allFinite()) return fmt::format("joint {} is not finite", j);
+    if (!joints.Knows(j) && joints.visible[j])
+      return fmt::format("joint {} is visible and not known", j);
+    if (joints.Knows(j) && !joints.positions[j].allFinite())
+      return fmt::format("joint {} is not finite", j);
   }
   return "";
 }
@@ -183,7 +203,10 @@ Json JointTruthJson(const std::vector<std::string>& names, const std::vector<Joi
   Json json = {{"joints", names}, {"frames", Json::array()}};
   for (const JointTruth& joints : frames) {
     Json positions = Json::array();
-    for (const Vector3<double>& p : joints.positions) positions.push_back({p.x(), p.y(), p.z()});
+    for (std::size_t j = 0; j < joints.positions.size(); ++j) {
+      const Vector3<double>& p = joints.positions[j];
+      positions.push_back(joints.Knows(j) ? Json({p.x(), p.y(), p.z()}) : Json(nullptr));
+    }
     json["frames"].push_back({{"positions", positions}, {"visible", joints.visible}});
   }
   return json;

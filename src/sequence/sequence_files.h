@@ -37,7 +37,8 @@ Json SequenceInfoJson(const SequenceInfo& info);
 // "" or why no sequence can be as `info` says.
 std::string SequenceInfoProblem(const SequenceInfo& info);
 
-// truth/joints.json: one JointTruth for each frame, in the order of info.joints.
+// truth/joints.json: one JointTruth for each frame, in the order of info.joints. The position of a
+// joint that is not known is null.
 std::vector<JointTruth> ReadJointTruth(const std::filesystem::path& file, const SequenceInfo& info);
 Json JointTruthJson(const std::vector<std::string>& names, const std::vector<JointTruth>& frames);
 

@@ -40,6 +40,21 @@ void CheckFrameFiles(const fs::path& folder, int frames) {
   }
 }
 
+// Whether a part is there must be as sequence.json says: one that is lost must not pass for one
+// that never was.
+void RequireFolder(const fs::path& folder, bool there) {
+  if (there && !fs::is_directory(folder))
+    throw DataError(fmt::format("{}: folder is missing", folder.string()));
+  if (!there && fs::exists(folder))
+    throw DataError(
+        fmt::format("{}: is there, but sequence.json says that there is none", folder.string()));
+}
+
+void RequireAbsent(const fs::path& file, const char* why) {
+  if (!fs::exists(file)) return;
+  throw DataError(fmt::format("{}: is there, but in sequence.json {}", file.string(), why));
+}
+
 std::size_t FrameBytes(const TriangleMesh& mesh) { return mesh.vertices.size() * sizeof(Vector3f); }
 
 void CheckVerticesSize(const fs::path& file, int frames, const TriangleMesh& mesh) {
@@ -69,18 +84,47 @@ SequenceReader::SequenceReader(fs::path folder) : folder_(std::move(folder)) {
   }
   const SequenceFiles files{folder_};
   info_ = ReadSequenceInfo(files.Header());
-  for (const fs::path& part : {files.DepthFolder(), files.TruthFolder(), files.Subject()}) {
-    if (!fs::is_directory(part)) {
-      throw DataError(fmt::format("{}: folder is missing", part.string()));
-    }
-  }
+  RequireFolder(files.DepthFolder(), true);
+  RequireFolder(files.TruthFolder(), info_.surface || !info_.joints.empty());
+  RequireFolder(files.Subject(), info_.subject);
   CheckFrameFiles(files.DepthFolder(), info_.frames);
   has_masks_ = fs::exists(files.MaskFolder());
   if (has_masks_) CheckFrameFiles(files.MaskFolder(), info_.frames);
-  true_joints_ = ReadJointTruth(files.Joints(), info_);
+  ReadTruth();
+  if (info_.subject) subject_ = ReadBodyModel(files.Subject());
+}
+
+void SequenceReader::ReadTruth() {
+  const SequenceFiles files{folder_};
+  if (info_.joints.empty()) {
+    RequireAbsent(files.Joints(), "joints is empty");
+  } else {
+    true_joints_ = ReadJointTruth(files.Joints(), info_);
+  }
+  if (!info_.surface) {
+    for (const fs::path& file : {files.Mesh(), files.Vertices()})
+      RequireAbsent(file, "surface is false");
+    return;
+  }
   true_rest_mesh_ = ReadMesh(files.Mesh());
   CheckVerticesSize(files.Vertices(), info_.frames, true_rest_mesh_);
-  subject_ = ReadBodyModel(files.Subject());
+}
+
+const BodyModel& SequenceReader::subject() const {
+  if (info_.subject) return subject_;
+  throw DataError(fmt::format(
+      "{}: the sequence has no subject for a tracker; name the folder of one: --subject of track, "
+      "or the subject of a variant in an experiment",
+      folder_.string()));
+}
+
+const TriangleMesh& SequenceReader::true_rest_mesh() const {
+  RequireSurface();
+  return true_rest_mesh_;
+}
+
+void SequenceReader::RequireSurface() const {
+  Require(info_.surface, "SequenceReader: {} has no true surface", folder_.string());
 }
 
 void SequenceReader::RequireFrame(int frame) const {
@@ -100,11 +144,13 @@ DepthImage SequenceReader::ReadDepth(int frame) const {
 
 const JointTruth& SequenceReader::true_joints(int frame) const {
   RequireFrame(frame);
+  Require(!info_.joints.empty(), "SequenceReader: {} has no true joints", folder_.string());
   return true_joints_[static_cast<std::size_t>(frame)];
 }
 
 std::vector<Vector3f> SequenceReader::ReadTrueVertices(int frame) const {
   RequireFrame(frame);
+  RequireSurface();
   const fs::path file = SequenceFiles{folder_}.Vertices();
   std::vector<Vector3f> vertices(true_rest_mesh_.vertices.size());
   const auto bytes = static_cast<std::streamsize>(FrameBytes(true_rest_mesh_));
@@ -151,7 +197,7 @@ void VerifySequence(const fs::path& folder) {
   Progress progress("verify " + folder.string(), reader.info().frames);
   for (int frame = 0; frame < reader.info().frames; ++frame) {
     reader.ReadDepth(frame);
-    reader.ReadTrueVertices(frame);
+    if (reader.info().surface) reader.ReadTrueVertices(frame);
     progress.Advance();
   }
 }

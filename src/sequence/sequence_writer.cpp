@@ -1,8 +1,10 @@
+#include <cerrno>
 #include <fstream>
 #include <stdexcept>
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/write_failure.h"
 #include "geometry/depth_png.h"
 #include "geometry/mesh_io.h"
 #include "sequence/sequence_files.h"
@@ -25,24 +27,59 @@ struct SequenceWriter::State {
         vertex_count(vertex_count_in) {}
 
   void RequireWritten() const {
-    if (!vertices) throw RunError(fmt::format("{}: cannot be written", files.Vertices().string()));
+    if (!vertices) FailToWrite(files.Vertices(), errno);
   }
+
+  void WriteSubject(const BodyModel& subject) const {
+    MakeFolder(files.Subject());
+    WriteBodyModel(files.Subject(), subject);
+  }
+
+  void AppendFrame(const DepthImage& depth, const JointTruth& truth) {
+    const int frame = static_cast<int>(joints.size());
+    Require(frame < info.frames, "SequenceWriter::Append: frame {} of {}", frame, info.frames);
+    Require(depth.width() == info.camera.width && depth.height() == info.camera.height,
+            "SequenceWriter::Append: depth of {}×{} pixels, expected {}×{}", depth.width(),
+            depth.height(), info.camera.width, info.camera.height);
+    const std::string problem = JointTruthProblem(truth, info.joints.size());
+    Require(problem.empty(), "SequenceWriter::Append: frame {}: {}", frame, problem);
+    WriteDepthPng(files.Depth(frame), depth, info.depth_unit_m);
+    joints.push_back(truth);
+  }
+
+  static std::unique_ptr<State> Begun(fs::path folder, SequenceInfo info, std::size_t vertices);
 };
 
-SequenceWriter::SequenceWriter(fs::path folder, SequenceInfo info, const BodyModel& subject,
-                               const TriangleMesh& true_rest_mesh) {
+std::unique_ptr<SequenceWriter::State> SequenceWriter::State::Begun(fs::path folder,
+                                                                    SequenceInfo info,
+                                                                    std::size_t vertices) {
   const std::string problem = SequenceInfoProblem(info);
   Require(problem.empty(), "SequenceWriter: {}", problem);
-  state_ =
-      std::make_unique<State>(std::move(folder), std::move(info), true_rest_mesh.vertices.size());
-  const SequenceFiles& files = state_->files;
-  MakeFolder(files.DepthFolder());
-  MakeFolder(files.TruthFolder());
-  MakeFolder(files.Subject());
-  WriteMesh(files.Mesh(), true_rest_mesh);
-  WriteBodyModel(files.Subject(), subject);
-  state_->vertices.open(files.Vertices(), std::ios::binary);
+  auto state = std::make_unique<State>(std::move(folder), std::move(info), vertices);
+  MakeFolder(state->files.DepthFolder());
+  if (state->info.surface || !state->info.joints.empty()) MakeFolder(state->files.TruthFolder());
+  return state;
+}
+
+SequenceWriter::SequenceWriter(fs::path folder, SequenceInfo info, const BodyModel& subject,
+                               const TriangleMesh& true_rest_mesh)
+    : state_(State::Begun(std::move(folder), std::move(info), true_rest_mesh.vertices.size())) {
+  Require(state_->info.surface, "SequenceWriter: info.surface is false, got a true surface");
+  WriteMesh(state_->files.Mesh(), true_rest_mesh);
+  state_->WriteSubject(subject);
+  errno = 0;
+  state_->vertices.open(state_->files.Vertices(), std::ios::binary);
   state_->RequireWritten();
+}
+
+SequenceWriter::SequenceWriter(fs::path folder, SequenceInfo info,
+                               const std::optional<BodyModel>& subject)
+    : state_(State::Begun(std::move(folder), std::move(info), 0)) {
+  Require(!state_->info.surface, "SequenceWriter: info.surface is true, got no true surface");
+  Require(state_->info.subject == subject.has_value(),
+          "SequenceWriter: info.subject is {}, got {} subject", state_->info.subject,
+          subject ? "a" : "no");
+  if (subject) state_->WriteSubject(*subject);
 }
 
 SequenceWriter::~SequenceWriter() = default;
@@ -51,24 +88,23 @@ void SequenceWriter::Append(const DepthImage& depth, const std::vector<Vector3f>
                             const JointTruth& joints) {
   State& s = *state_;
   const int frame = static_cast<int>(s.joints.size());
-  Require(frame < s.info.frames, "SequenceWriter::Append: frame {} of {}", frame, s.info.frames);
-  Require(depth.width() == s.info.camera.width && depth.height() == s.info.camera.height,
-          "SequenceWriter::Append: depth of {}×{} pixels, expected {}×{}", depth.width(),
-          depth.height(), s.info.camera.width, s.info.camera.height);
+  Require(s.info.surface, "SequenceWriter::Append: vertices of a sequence without a surface");
   Require(true_vertices.size() == s.vertex_count,
           "SequenceWriter::Append: {} vertices, expected {}", true_vertices.size(), s.vertex_count);
   for (std::size_t i = 0; i < true_vertices.size(); ++i) {
     Require(true_vertices[i].allFinite(),
             "SequenceWriter::Append: vertex {} of frame {} is not finite", i, frame);
   }
-  const std::string problem = JointTruthProblem(joints, s.info.joints.size());
-  Require(problem.empty(), "SequenceWriter::Append: frame {}: {}", frame, problem);
-
-  WriteDepthPng(s.files.Depth(frame), depth, s.info.depth_unit_m);
+  s.AppendFrame(depth, joints);
   s.vertices.write(reinterpret_cast<const char*>(true_vertices.data()),
                    static_cast<std::streamsize>(true_vertices.size() * sizeof(Vector3f)));
   s.RequireWritten();
-  s.joints.push_back(joints);
+}
+
+void SequenceWriter::Append(const DepthImage& depth, const JointTruth& joints) {
+  Require(!state_->info.surface,
+          "SequenceWriter::Append: no vertices of a sequence with a surface");
+  state_->AppendFrame(depth, joints);
 }
 
 void SequenceWriter::Note(const std::string& key, Json value) {
@@ -81,9 +117,12 @@ void SequenceWriter::Finish() {
     throw std::logic_error(fmt::format("SequenceWriter::Finish: {} of {} frames were appended",
                                        s.joints.size(), s.info.frames));
   }
-  s.vertices.close();
-  s.RequireWritten();
-  WriteWholeFile(s.files.Joints(), JointTruthJson(s.info.joints, s.joints).dump() + "\n");
+  if (s.info.surface) {
+    s.vertices.close();
+    s.RequireWritten();
+  }
+  if (!s.info.joints.empty())
+    WriteWholeFile(s.files.Joints(), JointTruthJson(s.info.joints, s.joints).dump() + "\n");
   WriteWholeFile(s.files.Header(), SequenceInfoJson(s.info).dump(2) + "\n");
   s.staged.Commit();
 }

@@ -187,6 +187,13 @@ PosedBody Pose(const BodyModel& body, const MotionSample& sample, Skinning skinn
   return posed;
 }
 
+double JointBelowSkin(int bone) {
+  for (const BoneId trunk : {BoneId::kPelvis, BoneId::kAbdomen, BoneId::kChest}) {
+    if (bone == static_cast<int>(trunk)) return kTrunkJointBelowSkinM;
+  }
+  return kLimbJointBelowSkinM;
+}
+
 bool SeesJoint(const Vector3d& joint_in_camera, double below_skin_m, const DepthImage& depth,
                const PinholeCamera& camera) {
   if (joint_in_camera.z() <= 0.0) return false;
@@ -202,12 +209,8 @@ std::vector<bool> VisibleJoints(const std::vector<Vector3d>& joints_in_camera,
                                 const DepthImage& depth, const PinholeCamera& camera) {
   std::vector<bool> visible;
   for (std::size_t i = 0; i < joints_in_camera.size(); ++i) {
-    const auto bone = static_cast<BoneId>(i);
-    const bool in_trunk =
-        bone == BoneId::kPelvis || bone == BoneId::kAbdomen || bone == BoneId::kChest;
-    visible.push_back(SeesJoint(joints_in_camera[i],
-                                in_trunk ? kTrunkJointBelowSkinM : kLimbJointBelowSkinM, depth,
-                                camera));
+    visible.push_back(
+        SeesJoint(joints_in_camera[i], JointBelowSkin(static_cast<int>(i)), depth, camera));
   }
   return visible;
 }

@@ -28,6 +28,9 @@ PosedBody Pose(const BodyModel& body, const MotionSample& sample, Skinning skinn
 inline constexpr double kLimbJointBelowSkinM = 0.15;
 inline constexpr double kTrunkJointBelowSkinM = 0.22;  // pelvis, waist and chest
 
+// The one of the two for the joint of a bone (body/skeleton.h); a limb's for any other number.
+double JointBelowSkin(int bone);
+
 // Whether the camera sees a joint: it projects into the image, and the depth rendered there is at
 // most below_skin_m in front of it.
 bool SeesJoint(const Vector3<double>& joint_in_camera, double below_skin_m, const DepthImage& depth,

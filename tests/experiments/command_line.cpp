@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/files.h"
+#include "experiments/full_disk.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -24,6 +25,10 @@ Json RowWithoutClock(Json row) {
 }  // namespace
 
 CallResult CallVitruvia(const std::vector<std::string>& arguments) {
+  return CallWithFullDisk(RLIM_INFINITY, arguments);
+}
+
+CallResult CallWithFullDisk(rlim_t largest_file_bytes, const std::vector<std::string>& arguments) {
   std::vector<char*> argv = {const_cast<char*>(VITRUVIA_PROGRAM)};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
@@ -33,6 +38,8 @@ CallResult CallVitruvia(const std::vector<std::string>& arguments) {
   testing::internal::CaptureStderr();
   const pid_t process = fork();
   if (process == 0) {
+    const rlimit limit{largest_file_bytes, largest_file_bytes};
+    setrlimit(RLIMIT_FSIZE, &limit);
     setenv("TMPDIR", locks.path().c_str(), 1);
     execv(VITRUVIA_PROGRAM, argv.data());
     _exit(-1);
@@ -76,6 +83,8 @@ Json WithoutClock(Json record) {
 
 Json ResultOf(const fs::path& experiment_folder) {
   Json result = ReadJsonFile(experiment_folder / "summary.json");
+  for (Json& row : result.at("variants").at("rows"))
+    row.at("metrics") = RowWithoutClock(row.at("metrics"));
   for (Json& row : result.at("rows")) {
     const std::string run_id = row.at("run_id");
     row = RowWithoutClock(row);

@@ -126,6 +126,19 @@ TEST_F(Regress, ARunThatEndsInAnErrorTripsFailed) {
   EXPECT_THAT(renewal.error, HasSubstr("not renewed, since a run failed"));
 }
 
+TEST_F(Regress, ARunThatCrashesTripsFailed) {
+  TakeBaseline();
+  WriteWholeFile(files_ / "crash.sh", "#!/bin/sh\nkill -s KILL $PPID\n");  // its caller: the run
+  fs::permissions(files_ / "crash.sh", fs::perms::owner_all);
+  files_.Write("method.json", {{"method", "external"}, {"settings", {{"program", "crash.sh"}}}});
+  const CallResult outcome = Call({});
+  EXPECT_EQ(outcome.code, static_cast<int>(ExitCode::kFailedRun)) << outcome.out;
+  EXPECT_THAT(outcome.error, HasSubstr("ended by signal 9 (Killed)"));
+  EXPECT_THAT(Report("md"), HasSubstr("ended by signal 9"));
+  EXPECT_THAT(Report("xml"), HasSubstr("<error message=\"repeat 2: failed: ended by signal 9"));
+  EXPECT_EQ(ReadJsonFile(files_ / "out/regression.json").at("exit_code"), 4);
+}
+
 TEST_F(Regress, NothingMeasuredIsNoSuccess) {
   TakeBaseline();
   const CallResult empty = Call({"--only", "nosuch"});

@@ -200,5 +200,60 @@ TEST(MakeSpeedFigure, MarksTheFront) {
   EXPECT_THAT(figure.caption, HasSubstr("The calibration kernel took 10.00 ms"));
 }
 
+TEST(TabulateVariants, GivesMeansOverAllRunsAndDifferencesToTheFirst) {
+  const VariantTable table = TabulateVariants(NinePairs());
+  ASSERT_EQ(table.metrics.size(), 2u);
+  EXPECT_EQ(table.metrics[0].key, "l2_mean_of_diagonal");
+  EXPECT_EQ(table.metrics[1].key, "frame_ms_median");
+  ASSERT_EQ(table.rows.size(), 3u);
+  const VariantSummary &base = table.rows[0], &worse = table.rows[1];
+  EXPECT_EQ(base.name, "base");
+  EXPECT_EQ(base.runs, 9);
+  // Scenes of 4, 4 and 3 letters, seeds 1 to 3: the mean of 0.01 letters + 0.002 seed.
+  EXPECT_NEAR(base.cells[0].spread.mean, 0.01 * 11.0 / 3.0 + 0.004, 1e-12);
+  EXPECT_FALSE(base.cells[0].difference);
+  EXPECT_NEAR(worse.cells[0].spread.mean, base.cells[0].spread.mean + 0.0012, 1e-12);
+  ASSERT_TRUE(worse.cells[0].difference);
+  const auto compared = CompareVariants(NinePairs(), "", {"l2_mean_of_diagonal"});
+  EXPECT_EQ(worse.cells[0].difference->comparison.interval.low,
+            compared[0].comparison.interval.low);
+  EXPECT_EQ(worse.cells[0].difference->comparison.interval.high,
+            compared[0].comparison.interval.high);
+  EXPECT_EQ(VerdictText(*worse.cells[0].difference), "higher (worse)");
+}
+
+TEST(TabulateVariants, RunsWithoutPartnerCountInTheMeanOnly) {
+  ReportedExperiment experiment = NinePairs();
+  RunRecord alone = MakeRun("worse", "jump", 1, 1.0);
+  Add(experiment, alone);
+  const VariantSummary worse = TabulateVariants(experiment).rows[1];
+  EXPECT_EQ(worse.runs, 10);
+  EXPECT_EQ(worse.cells[0].spread.count, 10);
+  EXPECT_EQ(worse.cells[0].difference->comparison.difference.count, 9);
+  EXPECT_EQ(worse.cells[0].difference->unpaired, 1);
+}
+
+TEST(TabulateVariants, AsJson) {
+  const nlohmann::json json = ToJson(TabulateVariants(NinePairs()));
+  EXPECT_EQ(json.at("reference"), "base");
+  EXPECT_EQ(json.at("confidence"), 0.95);
+  ASSERT_EQ(json.at("rows").size(), 3u);
+  EXPECT_FALSE(json["rows"][0]["metrics"]["l2_mean_of_diagonal"].contains("difference"));
+  const nlohmann::json& noisy = json["rows"][2]["metrics"]["l2_mean_of_diagonal"];
+  EXPECT_EQ(noisy.at("difference").at("verdict"), "no difference");
+  EXPECT_EQ(noisy.at("difference").at("pairs"), 9);
+  EXPECT_LT(noisy.at("difference").at("interval").at(0), 0.0);
+  EXPECT_GT(noisy.at("difference").at("interval").at(1), 0.0);
+}
+
+TEST(VariantSection, IsThereForSeveralVariantsOnly) {
+  const std::string html = VariantSection(NinePairs());
+  EXPECT_THAT(html, HasSubstr("<h2>3 variants, 27 runs</h2>"));
+  EXPECT_THAT(html, HasSubstr("<small class=\"verdict missed\" title=\"higher (worse)\">+0.00120"));
+  ReportedExperiment one;
+  Add(one, MakeRun("only", "walk", 1, 0.1));
+  EXPECT_EQ(VariantSection(one), "");
+}
+
 }  // namespace
 }  // namespace vitruvia

@@ -361,5 +361,121 @@ TEST_F(Sequence, ReaderRefusesFramesThatAreNotThere) {
   EXPECT_THROW(reader.ReadTrueVertices(kFrames), std::invalid_argument);
 }
 
+// A sequence without a surface; its subject and its joints as `info` says.
+void WritePartial(const fs::path& folder, const SequenceInfo& info) {
+  std::optional<BodyModel> subject;
+  if (info.subject) subject = TinyBody();
+  SequenceWriter writer(folder, info, subject);
+  for (int i = 0; i < info.frames; ++i) {
+    JointTruth joints = info.joints.empty() ? JointTruth{} : SmallJoints(i);
+    if (i == 2 && !info.joints.empty()) {
+      joints.known = {false, true};
+      joints.visible = {false, true};
+      joints.positions[0].setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+    writer.Append(SmallDepth(i), joints);
+  }
+  writer.Finish();
+}
+
+SequenceInfo PartialInfo(bool subject) {
+  SequenceInfo info = SmallInfo();
+  info.surface = false;
+  info.subject = subject;
+  return info;
+}
+
+TEST_F(Sequence, MayCarryJointsOnlyAndOfTheseOnlyTheKnown) {
+  WritePartial(folder_, PartialInfo(false));
+  VerifySequence(folder_);
+  const SequenceReader reader(folder_);
+  EXPECT_FALSE(reader.info().surface);
+  EXPECT_FALSE(reader.info().subject);
+  EXPECT_FALSE(fs::exists(folder_ / "subject"));
+  EXPECT_FALSE(fs::exists(folder_ / "truth/mesh.ply"));
+  EXPECT_TRUE(reader.true_joints(1).Knows(0));
+  EXPECT_EQ(reader.true_joints(1).positions, SmallJoints(1).positions);
+  EXPECT_FALSE(reader.true_joints(2).Knows(0));
+  EXPECT_TRUE(reader.true_joints(2).Knows(1));
+  EXPECT_FALSE(reader.true_joints(2).visible[0]);
+  EXPECT_EQ(reader.true_joints(2).positions[1], SmallJoints(2).positions[1]);
+  EXPECT_THROW(reader.ReadTrueVertices(0), std::invalid_argument);
+  EXPECT_THROW(reader.true_rest_mesh(), std::invalid_argument);
+  try {
+    reader.subject();
+    FAIL();
+  } catch (const DataError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("walk: the sequence has no subject for a tracker; name"));
+  }
+}
+
+TEST_F(Sequence, MayCarryNoTruthAtAll) {
+  SequenceInfo info = PartialInfo(true);
+  info.joints.clear();
+  WritePartial(folder_, info);
+  VerifySequence(folder_);
+  const SequenceReader reader(folder_);
+  EXPECT_FALSE(fs::exists(folder_ / "truth"));
+  EXPECT_EQ(reader.subject().rest.triangles, TinyBody().rest.triangles);
+  EXPECT_THROW(reader.true_joints(0), std::invalid_argument);
+}
+
+TEST_F(Sequence, LostTruthDoesNotPassForNone) {
+  WriteSmall(folder_);
+  fs::remove(folder_ / "truth/mesh.ply");
+  fs::remove(folder_ / "truth/vertices.bin");
+  EXPECT_THAT(Refusal(folder_), HasSubstr("truth/mesh.ply"));
+  WriteSmall(folder_);
+  fs::remove_all(folder_ / "subject");
+  EXPECT_THAT(Refusal(folder_), HasSubstr("walk/subject: folder is missing"));
+}
+
+TEST_F(Sequence, TruthThatOughtNotToBeThereIsRefused) {
+  WritePartial(folder_, PartialInfo(true));
+  WriteWholeFile(folder_ / "truth/vertices.bin", "");
+  EXPECT_THAT(Refusal(folder_),
+              HasSubstr("truth/vertices.bin: is there, but in sequence.json surface is false"));
+  WritePartial(folder_, PartialInfo(true));
+  Edit("sequence.json", "\"surface\": false", "\"surface\": false,\n\"subject\": false");
+  EXPECT_THAT(Refusal(folder_),
+              HasSubstr("walk/subject: is there, but sequence.json says that there is none"));
+}
+
+TEST_F(Sequence, CompleteSequencesSayNothingNewAndKeepTheirHash) {
+  WriteSmall(folder_);
+  const Json header = ReadJsonFile(folder_ / "sequence.json");
+  EXPECT_FALSE(header.contains("surface"));
+  EXPECT_FALSE(header.contains("subject"));
+  const std::string hash = SequenceReader(folder_).hash();
+  Edit("sequence.json", "\"frames\": 3", "\"frames\": 3, \"surface\": true, \"subject\": true");
+  EXPECT_EQ(SequenceReader(folder_).hash(), hash);
+}
+
+TEST_F(Sequence, AnUnknownJointIsNullAndNotVisible) {
+  WritePartial(folder_, PartialInfo(false));
+  Json joints = ReadJsonFile(folder_ / "truth/joints.json");
+  EXPECT_TRUE(joints["frames"][2]["positions"][0].is_null());
+  joints["frames"][2]["visible"][0] = true;
+  WriteWholeFile(folder_ / "truth/joints.json", joints.dump());
+  EXPECT_THAT(Refusal(folder_), HasSubstr("frames[2].joint \"neck\": expected three numbers and a "
+                                          "visible flag of true or false, or null and false, got "
+                                          "null and true"));
+}
+
+TEST_F(Sequence, WriterRefusesPartsThatItsHeaderDenies) {
+  const BodyModel body = TinyBody();
+  EXPECT_THROW(SequenceWriter(folder_, PartialInfo(true), body, body.rest), std::invalid_argument);
+  EXPECT_THROW(SequenceWriter(folder_, PartialInfo(true), std::nullopt), std::invalid_argument);
+  EXPECT_THROW(SequenceWriter(folder_, SmallInfo(), body), std::invalid_argument);
+  SequenceWriter writer(folder_, PartialInfo(true), body);
+  EXPECT_THROW(writer.Append(SmallDepth(0), SmallVertices(body, 0), SmallJoints(0)),
+               std::invalid_argument);
+  JointTruth joints = SmallJoints(0);
+  joints.known = {false, true};  // and visible
+  EXPECT_THROW(writer.Append(SmallDepth(0), joints), std::invalid_argument);
+  joints.known = {true};
+  EXPECT_THROW(writer.Append(SmallDepth(0), joints), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace vitruvia
