@@ -79,7 +79,8 @@ void Verify(const fs::path& folder) {
 void Track(const fs::path& method_file, const fs::path& sequence_folder, const fs::path& output) {
   const MethodConfig method = ReadMethodConfig(ReadJsonFile(method_file), {method_file, ""});
   const SequenceReader sequence(sequence_folder);
-  TrackSequence(sequence, method, sequence.subject(), output);
+  const auto as_stored = [](DepthFrame&) {};
+  TrackSequence(sequence, method, sequence.subject(), as_stored, output);
   RunRecord record;
   ScoreRun(sequence, EstimateReader(output), ScoreSettings(), record);
   fmt::print("{}\n", record.summary.dump(2));

@@ -42,6 +42,8 @@ RunPlan PlanRun(const fs::path& scene_file, const fs::path& method_file,
     run.subject = ReadSubjectRecipe(variant.subject);
     run.resolved["subject"] = ResolvedRecipe(*run.subject);
   }
+  run.faults = variant.faults;
+  if (!run.faults.AreNone()) run.resolved["faults"] = WriteSettings(run.faults);
   return run;
 }
 
@@ -132,6 +134,7 @@ void VariantSettings::Describe(Fields& f) {
   f.File("subject", subject,
          {.meaning = "subject file: the tracker's subject is scanned and fitted as it says; the "
                      "scene's own template without"});
+  f.Section("faults", faults, {.meaning = "damage done to what the tracker is handed"});
 }
 
 std::string VariantSettings::Problem() const {
@@ -187,6 +190,10 @@ void ExperimentSettings::Describe(Fields& f) {
   f.List("expectations", expectations, {.meaning = "numbers of the paper to print beside ours"});
   f.Integers("picture_frames", picture_frames,
              {.meaning = "frames at which the report shows pictures", .min = 0, .max = 1e9});
+  f.Flag(
+      "side_by_side", side_by_side,
+      {.meaning = "true: at these frames the report also shows all runs of a sequence below each "
+                  "other, fronts and backs in two colours, so that jitter and twists show"});
   f.Section("score", score, {.meaning = "what is measured beside the usual"});
 }
 
@@ -234,6 +241,7 @@ ExperimentPlan PlanExperiment(const ExperimentSettings& settings, const fs::path
   plan.record.title = settings.title;
   plan.record.description = settings.description;
   plan.record.picture_frames = settings.picture_frames;
+  plan.record.side_by_side = settings.side_by_side;
   for (const ExpectationSettings& e : settings.expectations) {
     plan.record.expectations.push_back(e.AsRecorded());
   }

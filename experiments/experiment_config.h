@@ -9,6 +9,7 @@
 
 #include "core/json_settings.h"
 #include "experiments/fitted_subject.h"
+#include "experiments/input_faults.h"
 #include "experiments/score.h"
 #include "experiments/sweep.h"
 #include "methods/registry.h"
@@ -24,6 +25,7 @@ struct VariantSettings {
   Json scene = Json::object();
   Json method = Json::object();
   std::filesystem::path subject;  // a recipe (fitted_subject.h); "": the scene's own template
+  InputFaultSettings faults;      // none by default
 
   void Describe(Fields& fields);
   std::string Problem() const;
@@ -53,6 +55,7 @@ struct ExperimentSettings {
   bool timed = false;
   std::vector<ExpectationSettings> expectations;
   std::vector<int> picture_frames{0};
+  bool side_by_side = false;
   ScoreSettings score;
 
   void Describe(Fields& fields);
@@ -69,8 +72,10 @@ struct RunPlan {
   SceneSettings scene_settings;
   MethodConfig method;
   std::optional<SubjectRecipe> subject;
+  InputFaultSettings faults;
   ScoreSettings score;
-  Json resolved;  // { "scene": …, "method": …, "score": …, and with a recipe "subject": … }
+  // { "scene": …, "method": …, "score": …, with a recipe "subject": …, with faults "faults": … }
+  Json resolved;
 };
 
 struct ExperimentPlan {

@@ -23,10 +23,14 @@ RunRecord CarryOut(const RunPlan& run, const std::string& experiment, const fs::
   const KeptFolder kept = SequenceOf(run, work);
   kept.Obtain([&run](const fs::path& made) { SynthesizeSequence(run.scene_settings, made); });
   const SequenceReader sequence(kept.path());
-  const BodyModel subject =
-      run.subject ? ObtainFittedSubject(*run.subject, run.scene_settings, work.learned)
-                  : sequence.subject();
-  TrackSequence(sequence, run.method, subject, folder / run.run_id / "estimate");
+  BodyModel subject = run.subject
+                          ? ObtainFittedSubject(*run.subject, run.scene_settings, work.learned)
+                          : sequence.subject();
+  DamageSubject(run.faults.subject, subject);
+  const auto damage = [&](DepthFrame& frame) {
+    DamageFrame(run.faults.depth, sequence.info().depth_unit_m, run.seed, frame);
+  };
+  TrackSequence(sequence, run.method, subject, damage, folder / run.run_id / "estimate");
 
   RunRecord record;
   record.run_id = run.run_id;
@@ -63,14 +67,16 @@ std::string LogOf(const fs::path& estimate_folder) {
 }  // namespace
 
 void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
-                   const BodyModel& subject, const fs::path& folder) {
+                   const BodyModel& subject, const std::function<void(DepthFrame&)>& prepare,
+                   const fs::path& folder) {
   const SequenceInfo& info = sequence.info();
   const std::unique_ptr<Tracker> tracker = MakeTracker(method);
   EstimateWriter writer(folder, subject.rest);
   Progress progress("track " + method.method, info.frames);
   tracker->Start(subject, info.camera);
   for (int i = 0; i < info.frames; ++i) {
-    const DepthFrame frame{i, i / info.fps, sequence.ReadDepth(i)};
+    DepthFrame frame{i, i / info.fps, sequence.ReadDepth(i)};
+    prepare(frame);
     const Stopwatch watch;
     const TrackResult result = tracker->TrackFrame(frame);
     writer.Append(result, watch.ElapsedMs());

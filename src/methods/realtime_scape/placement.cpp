@@ -74,6 +74,8 @@ Rigidd PlaceRestPose(const Model& model, const PointCloud& cloud, const PinholeC
   camera_from_subject.translation =
       Mean(cloud.points) - camera_from_subject.rotation * Mean(model.rest_vertices);
 
+  camera_from_subject = Misplaced(camera_from_subject, settings);
+
   KdTree tree;
   std::vector<int> visible;
   std::vector<KdTree::Neighbor> neighbors;
@@ -98,7 +100,7 @@ Rigidd PlaceRestPose(const Model& model, const PointCloud& cloud, const PinholeC
     if (matches.size() < 3) break;
     camera_from_subject = RigidFit(matches);
   }
-  return Misplaced(camera_from_subject, settings);
+  return camera_from_subject;
 }
 
 }  // namespace vitruvia::realtime_scape

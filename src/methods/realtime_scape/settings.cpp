@@ -131,12 +131,13 @@ void PlacementSettings::Describe(Fields& f) {
             .max = 0.9,
             .origin = Origin::kGuessed,
             .source = "the arms may hang a little from the T-pose"});
-  f.Numbers("wrong_by_m", wrong_by_m,
-            {.meaning = "the first pose is moved from where it was found by this, camera frame: to "
-                        "see what a wrong start does",
-             .unit = "m",
-             .min = -10,
-             .max = 10});
+  f.Numbers(
+      "wrong_by_m", wrong_by_m,
+      {.meaning = "the pose that they start from is moved by this, camera frame: to see what a "
+                  "wrong start does",
+       .unit = "m",
+       .min = -10,
+       .max = 10});
   f.Number("wrong_by_deg", wrong_by_deg,
            {.meaning = "and turned by this about its own vertical",
             .unit = "deg",
