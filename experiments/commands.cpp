@@ -88,7 +88,8 @@ void Track(const Arguments& a) {
   const MethodConfig method = ReadMethodConfig(ReadJsonFile(a.method), {a.method, ""});
   const SequenceReader sequence(a.sequence);
   const BodyModel subject = a.subject.empty() ? sequence.subject() : ReadBodyModel(a.subject);
-  TrackSequence(sequence, method, subject, a.output);
+  const auto as_stored = [](DepthFrame&) {};
+  TrackSequence(sequence, method, subject, as_stored, a.output);
   RunRecord record;
   ScoreRun(sequence, EstimateReader(a.output), ScoreSettings(), record);
   fmt::print("{}\n", record.summary.dump(2));

@@ -94,6 +94,8 @@ RunPlan PlanRun(const Recording& recording, const fs::path& method_file,
     TakeScene(recording.path, variant, run);
   }
   if (!variant.subject.empty()) TakeSubject(variant.subject, run);
+  run.faults = variant.faults;
+  if (!run.faults.AreNone()) run.resolved["faults"] = WriteSettings(run.faults);
   return run;
 }
 
@@ -188,6 +190,7 @@ void VariantSettings::Describe(Fields& f) {
          {.meaning = "what the tracker knows of the person: a subject file (scanned and fitted as "
                      "it says) or the folder of a subject (mesh.ply, subject.json, weights.bin); "
                      "the sequence's own template without"});
+  f.Section("faults", faults, {.meaning = "damage done to what the tracker is handed"});
 }
 
 std::string VariantSettings::Problem() const {
@@ -250,6 +253,10 @@ void ExperimentSettings::Describe(Fields& f) {
   f.List("expectations", expectations, {.meaning = "numbers of the paper to print beside ours"});
   f.Integers("picture_frames", picture_frames,
              {.meaning = "frames at which the report shows pictures", .min = 0, .max = 1e9});
+  f.Flag(
+      "side_by_side", side_by_side,
+      {.meaning = "true: at these frames the report also shows all runs of a sequence below each "
+                  "other, fronts and backs in two colours, so that jitter and twists show"});
   f.Section("score", score, {.meaning = "what is measured beside the usual"});
 }
 
@@ -298,6 +305,7 @@ ExperimentPlan PlanExperiment(const ExperimentSettings& settings, const fs::path
   plan.record.title = settings.title;
   plan.record.description = settings.description;
   plan.record.picture_frames = settings.picture_frames;
+  plan.record.side_by_side = settings.side_by_side;
   for (const ExpectationSettings& e : settings.expectations) {
     plan.record.expectations.push_back(e.AsRecorded());
   }

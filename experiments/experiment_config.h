@@ -9,6 +9,7 @@
 
 #include "core/json_settings.h"
 #include "experiments/fitted_subject.h"
+#include "experiments/input_faults.h"
 #include "experiments/score.h"
 #include "experiments/sweep.h"
 #include "methods/registry.h"
@@ -26,6 +27,7 @@ struct VariantSettings {
   // A recipe (fitted_subject.h) or the folder of a body (body_model.h); "": the scene's own
   // template, or what a stored sequence has.
   std::filesystem::path subject;
+  InputFaultSettings faults;  // none by default
 
   void Describe(Fields& fields);
   std::string Problem() const;
@@ -56,6 +58,7 @@ struct ExperimentSettings {
   bool timed = false;
   std::vector<ExpectationSettings> expectations;
   std::vector<int> picture_frames{0};
+  bool side_by_side = false;
   ScoreSettings score;
 
   void Describe(Fields& fields);
@@ -76,9 +79,10 @@ struct RunPlan {
   MethodConfig method;
   std::optional<SubjectRecipe> subject;
   std::filesystem::path subject_folder;
+  InputFaultSettings faults;
   ScoreSettings score;
   // { "scene" or "sequence", "method", "score", and as the variant says "subject" or
-  // "subject_folder" }
+  // "subject_folder", "faults" }
   Json resolved;
 };
 

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "experiments/joint_score.h"
+#include "experiments/run_health.h"
 #include "experiments/surface_score.h"
 #include "metrics/statistics.h"
 
@@ -25,6 +26,7 @@ void RecordOutcomes(const EstimateReader& estimate, RunRecord& record) {
     record.frames["failed"].push_back(IsFailure(frame.outcome) ? 1.0 : 0.0);
     record.frames["condition"].push_back(frame.condition);
     record.frames["rotation_drift"].push_back(frame.rotation_drift);
+    record.frames["energy_rise"].push_back(frame.energy_rise);
     for (const NamedValue& energy : frame.energies)
       record.frames["energy_" + energy.name].push_back(energy.value);
   }
@@ -39,38 +41,6 @@ std::vector<RunRecord::Step> StepTimes(const EstimateReader& estimate) {
                      Quantile(ms, 0.95), Maximum(ms)});
   }
   return steps;
-}
-
-// A frame is lost when the tracker says so or when the surface is this far off on average. Without
-// a true surface nobody can say.
-constexpr double kLostAbove_m = 0.05;
-
-// How often the subject was lost, and how many frames it took at the longest to find it again; -1
-// if it was not found again before the end.
-void SummarizeLosses(const RunRecord& record, nlohmann::json& row) {
-  if (!record.frames.contains("l2_mean_m")) return;
-  const auto& failed = record.frames.at("failed");
-  const auto& error_m = record.frames.at("l2_mean_m");
-  int lost = 0, run = 0, longest = 0;
-  for (std::size_t i = 0; i < failed.size(); ++i) {
-    run = failed[i] > 0.0 || error_m[i] > kLostAbove_m ? run + 1 : 0;
-    lost += run > 0 ? 1 : 0;
-    longest = std::max(longest, run);
-  }
-  row["frames_lost"] = lost;
-  row["frames_to_recover"] = run > 0 ? -1 : longest;
-}
-
-// Everything stored that is no number. Vertices and joints cannot be: neither writer nor reader of
-// estimates lets them pass; so a joint error that is none only says that no true joint was known.
-int NonFinite(const RunRecord& record) {
-  int count = 0;
-  for (const auto& [name, values] : record.frames) {
-    if (name.starts_with("joint_error_")) continue;
-    count += static_cast<int>(
-        std::count_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); }));
-  }
-  return count;
 }
 
 // What could not be measured for want of truth, for people; "" if all was. A number that is absent
@@ -103,12 +73,9 @@ void SummarizeRun(const SequenceInfo& info, RunRecord& record) {
   row["frame_ms_p95"] = Quantile(frame_ms, 0.95);
   row["frame_ms_max"] = Maximum(frame_ms);
   row["iterations_mean"] = Mean(f.at("iterations"));
-  row["condition_max"] = Maximum(f.at("condition"));
-  row["rotation_drift_max"] = Maximum(f.at("rotation_drift"));
-  row["non_finite"] = NonFinite(record);
   if (!record.variant.empty()) row["case"] = record.variant;
   if (const std::string missing = NotScored(info); !missing.empty()) row["not_scored"] = missing;
-  SummarizeLosses(record, row);
+  SummarizeHealth(record, row);
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ VariantSettings Without(const Parts& parts) {
     model.scene = Merged(model.scene, part.scene);
     model.method = Merged(model.method, part.method);
     if (!part.subject.empty()) model.subject = part.subject;
+    if (!part.faults.AreNone()) model.faults = part.faults;
   }
   return model;
 }

@@ -38,8 +38,12 @@ BodyModel ObtainSubject(const RunPlan& run, const SequenceReader& sequence,
 RunRecord CarryOut(const RunPlan& run, const std::string& experiment, const fs::path& folder,
                    const WorkFolders& work) {
   const SequenceReader sequence(ObtainSequence(run, work));
-  const BodyModel subject = ObtainSubject(run, sequence, work);
-  TrackSequence(sequence, run.method, subject, folder / run.run_id / "estimate");
+  BodyModel subject = ObtainSubject(run, sequence, work);
+  DamageSubject(run.faults.subject, subject);
+  const auto damage = [&](DepthFrame& frame) {
+    DamageFrame(run.faults.depth, sequence.info().depth_unit_m, run.seed, frame);
+  };
+  TrackSequence(sequence, run.method, subject, damage, folder / run.run_id / "estimate");
 
   RunRecord record;
   record.run_id = run.run_id;
@@ -76,7 +80,8 @@ std::string LogOf(const fs::path& estimate_folder) {
 }  // namespace
 
 void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
-                   const BodyModel& subject, const fs::path& folder) {
+                   const BodyModel& subject, const std::function<void(DepthFrame&)>& prepare,
+                   const fs::path& folder) {
   const SequenceInfo& info = sequence.info();
   ForgetPeakMemory();
   const double before_mb = ResidentMemory_mb();
@@ -85,7 +90,8 @@ void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
   Progress progress("track " + method.method, info.frames);
   tracker->Start(subject, info.camera);
   for (int i = 0; i < info.frames; ++i) {
-    const DepthFrame frame{i, i / info.fps, sequence.ReadDepth(i)};
+    DepthFrame frame{i, i / info.fps, sequence.ReadDepth(i)};
+    prepare(frame);
     const Stopwatch watch;
     const TrackResult result = tracker->TrackFrame(frame);
     writer.Append(result, watch.ElapsedMs());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "experiments/experiment_config.h"
@@ -11,10 +12,12 @@
 
 namespace vitruvia {
 
-// Tracks a whole sequence with that subject; the clock runs round TrackFrame only. The estimate
-// appears at `folder` whole or not at all.
+// Tracks a whole sequence with that subject; the clock runs round TrackFrame only. Every frame goes
+// through `prepare` before the tracker gets it. The estimate appears at `folder` whole or not at
+// all.
 void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
-                   const BodyModel& subject, const std::filesystem::path& folder);
+                   const BodyModel& subject, const std::function<void(DepthFrame&)>& prepare,
+                   const std::filesystem::path& folder);
 
 // The runs speak of the plan: it must live as long as they do.
 std::vector<PlannedRun> TrackingRuns(const ExperimentPlan& plan,

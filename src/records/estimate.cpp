@@ -87,6 +87,7 @@ Json JsonOfFrame(const TrackResult& result, double frame_ms, int index) {
           {"step_ms", PairsOf(result.step_ms, where + "step_ms ")},
           {"energies", PairsOf(result.energies, where + "energy ")},
           {"condition", singular ? Json(nullptr) : Finite(result.condition, where + "condition")},
+          {"energy_rise", Finite(result.energy_rise, where + "energy_rise")},
           {"rotation_drift", Finite(RotationDrift(result.camera_from_rest), where + "drift")},
           {"joints", joints}};
 }
@@ -103,6 +104,7 @@ FrameEstimate ParseFrame(const JsonNode& node) {
   if (node.json().contains("rotation_drift")) {  // older estimates have none
     frame.rotation_drift = node.At("rotation_drift").Number();
   }
+  if (node.json().contains("energy_rise")) frame.energy_rise = node.At("energy_rise").Number();
   frame.joints = node.At("joints").List(ParsePoint);
   return frame;
 }

@@ -1,8 +1,8 @@
 // What a tracker said of a sequence, stored raw so that every metric can be computed again.
 //
 //   estimate.json   format, version, vertex count, and per frame: outcome, message, iterations,
-//                   frame_ms, step_ms, energies, condition, joints (camera frame, metres);
-//                   tracker_memory_mb
+//                   frame_ms, step_ms, energies, energy_rise, condition, joints (camera frame,
+//                   metres); tracker_memory_mb
 //   vertices.bin    float32 [frames][vertices][3], camera frame, metres, little-endian
 //   mesh.ply        triangles and rest pose of the tracked surface
 #pragma once
@@ -24,6 +24,7 @@ struct FrameEstimate {
   double frame_ms = 0.0;  // wall clock round TrackFrame only
   std::vector<NamedValue> step_ms, energies;
   double condition = -1.0;
+  double energy_rise = -1.0;    // see TrackResult
   double rotation_drift = 0.0;  // largest ‖RᵀR − I‖ of any bone; 0 for methods without bones
   std::vector<Vector3<double>> joints;
 };

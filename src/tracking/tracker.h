@@ -48,6 +48,9 @@ struct TrackResult {
   std::vector<NamedValue> energies;  // at the last linearisation, weighted as minimised
   std::vector<NamedValue> step_ms;   // summed over the frame's iterations
   double condition = -1.0;           // of the normal equations; -1 where not estimated
+  // By what share of itself a step raised the energy at most, its correspondences kept; 0 where
+  // none did, -1 where that was not looked at.
+  double energy_rise = -1.0;
 };
 
 class Tracker {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
 #include <Eigen/SVD>
 
@@ -55,6 +56,13 @@ void KeepBest(double share, std::vector<Match>& matches) {
   matches.resize(keep);
 }
 
+Rigidd Misplaced(const Rigidd& camera_from_subject, const PlacementSettings& settings) {
+  const double angle = settings.wrong_by_deg * std::numbers::pi / 180.0;
+  const Vector3d shift(settings.wrong_by_m[0], settings.wrong_by_m[1], settings.wrong_by_m[2]);
+  return Rigidd{Matrix3<double>::Identity(), shift} * camera_from_subject *
+         Rigidd{ExpSo3<double>({0.0, angle, 0.0}), Vector3d::Zero()};
+}
+
 }  // namespace
 
 Rigidd PlaceRestPose(const Model& model, const PointCloud& cloud, const PinholeCamera& camera,
@@ -65,6 +73,8 @@ Rigidd PlaceRestPose(const Model& model, const PointCloud& cloud, const PinholeC
   camera_from_subject.rotation = Vector3d(1.0, -1.0, -1.0).asDiagonal();
   camera_from_subject.translation =
       Mean(cloud.points) - camera_from_subject.rotation * Mean(model.rest_vertices);
+
+  camera_from_subject = Misplaced(camera_from_subject, settings);
 
   KdTree tree;
   std::vector<int> visible;

@@ -10,7 +10,7 @@ namespace vitruvia::realtime_scape {
 
 // camera_from_subject of a body that stands in the rest pose, upright and facing the camera:
 // centroid on centroid, then trimmed rigid closest-point iterations of the cloud against the
-// visible vertices.
+// visible vertices. The pose that these start from is as wrong as the settings ask.
 Rigidd PlaceRestPose(const Model& model, const PointCloud& cloud, const PinholeCamera& camera,
                      const FitSettings& fit, const PlacementSettings& settings,
                      MeshRasterizer& rasterizer);

@@ -1,6 +1,8 @@
 // Settings of Realtime SCAPE (paper A, sec. 6).
 #pragma once
 
+#include <array>
+
 #include "core/settings.h"
 #include "geometry/mesh_rasterizer.h"
 #include "matching/classification.h"
@@ -76,6 +78,12 @@ struct FitSettings {
   RobustKernel kernel = RobustKernel::kHuber;
   double kernel_scale_m = 0.01;
   void Describe(Fields& fields);
+
+ private:
+  void DescribeVisibility(Fields& fields);
+  void DescribeClasses(Fields& fields);
+  void DescribePairs(Fields& fields);
+  void DescribeWeights(Fields& fields);
 };
 
 struct SearchSettings {
@@ -106,12 +114,15 @@ struct StoppingSettings {
 struct SolverSettings {
   LinearSolverOptions linear;
   double damping = 1e-9;  // energy per squared radian or length unit
+  bool watch_energy = false;
   void Describe(Fields& fields);
 };
 
 struct PlacementSettings {
   int iterations = 30;
   double trim = 0.2;
+  std::array<double, 3> wrong_by_m{};  // camera frame
+  double wrong_by_deg = 0.0;
   void Describe(Fields& fields);
 };
 
@@ -143,6 +154,9 @@ struct Settings {
   RecoverySettings recovery;
   double lost_below = 0.3;
   void Describe(Fields& fields);
+
+ private:
+  void DescribeEnergy(Fields& fields);
 };
 
 }  // namespace vitruvia::realtime_scape
