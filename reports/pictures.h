@@ -25,7 +25,7 @@ struct RunPictures {
   std::string problem;                       // why there are none; "" when all is well
   std::vector<std::string> titles;           // of a strip's pictures
   double nearest_m = 0.0, farthest_m = 0.0;  // ends of the depth colours; both 0: no depth shown
-  double error_scale_m = 0.0;                // end of the error colours
+  double error_scale_m = 0.0;                // end of the error colours; 0: no errors shown
   std::vector<PictureStrip> strips;
 };
 
