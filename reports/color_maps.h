@@ -28,6 +28,9 @@ inline constexpr std::array<Color, 7> kRunColors = {{{0x00, 0x72, 0xb2},
                                                      {0x33, 0x33, 0x33}}};
 inline constexpr Color kEstimateColor{0x5b, 0xa3, 0xd9};
 inline constexpr Color kTruthColor{0xe8, 0x9b, 0x3c};
+// The skin by where it looks in the rest pose: a limb that is twisted shows its back.
+inline constexpr Color kFrontColor{0x8f, 0xbf, 0xe0};
+inline constexpr Color kBackColor{0xd0, 0x6a, 0x2c};
 inline constexpr Color kFailureColor{0xb0, 0x00, 0x20};
 
 }  // namespace vitruvia

@@ -1,4 +1,6 @@
 // All strips of a run on one sheet.
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "reports/color_maps.h"
@@ -7,11 +9,22 @@
 namespace vitruvia {
 namespace {
 
-constexpr int kCell = 210, kCellGap = 6, kMarginLeft = 78, kHeader = 50, kFooter = 70;
+constexpr int kCell = 210, kCellGap = 6, kNarrowestMargin = 78, kHeader = 50, kFooter = 70;
+constexpr double kLetterWidth = 7.0;  // of a row's label
 constexpr int kBarWidth = 3 * kCell / 2, kBarHeight = 12, kBarSteps = 60;
 
+// Room for the rows' labels.
+int MarginLeft(const RunPictures& run) {
+  std::size_t letters = 0;
+  for (const PictureStrip& strip : run.strips) {
+    letters = std::max({letters, strip.label.size(), strip.sublabel.size()});
+  }
+  return std::max(kNarrowestMargin,
+                  static_cast<int>(kLetterWidth * static_cast<double>(letters)) + 16);
+}
+
 int SheetWidth(const RunPictures& run) {
-  return kMarginLeft + static_cast<int>(run.titles.size()) * (kCell + kCellGap);
+  return MarginLeft(run) + static_cast<int>(run.titles.size()) * (kCell + kCellGap);
 }
 
 void DrawColorBar(Canvas& canvas, Point top_left, Color (*color_of)(double),
@@ -32,10 +45,11 @@ void DrawColorBar(Canvas& canvas, Point top_left, Color (*color_of)(double),
 
 // Titles in two lines: what is shown, and from where.
 void DrawTitles(Canvas& canvas, const RunPictures& run) {
+  const int margin_left = MarginLeft(run);
   for (std::size_t i = 0; i < run.titles.size(); ++i) {
     const std::string& title = run.titles[i];
     const std::size_t comma = title.find(", ");
-    const double x = kMarginLeft + static_cast<double>(i) * (kCell + kCellGap) + 0.5 * kCell;
+    const double x = margin_left + static_cast<double>(i) * (kCell + kCellGap) + 0.5 * kCell;
     canvas.Text({x, 16.0}, title.substr(0, comma),
                 {.size = 14.0, .anchor = Anchor::kMiddle, .bold = true});
     if (comma == std::string::npos) continue;
@@ -48,6 +62,7 @@ void DrawTitles(Canvas& canvas, const RunPictures& run) {
 void WritePictureSheet(DrawingWriter& writer, const std::filesystem::path& stem,
                        const RunPictures& run) {
   const int rows = static_cast<int>(run.strips.size());
+  const int margin_left = MarginLeft(run);
   const int height = kHeader + rows * (kCell + kCellGap) + kFooter;
   writer.Write(stem, SheetWidth(run), height, [&](Canvas& canvas) {
     DrawTitles(canvas, run);
@@ -57,20 +72,20 @@ void WritePictureSheet(DrawingWriter& writer, const std::filesystem::path& stem,
       canvas.Text({8.0, top + 0.5 * kCell - 9.0}, strip.label, {.size = 12.0, .bold = true});
       canvas.Text({8.0, top + 0.5 * kCell + 9.0}, strip.sublabel, {.size = 12.0});
       for (std::size_t i = 0; i < strip.pictures.size(); ++i) {
-        canvas.Picture({kMarginLeft + static_cast<double>(i) * (kCell + kCellGap), top}, kCell,
+        canvas.Picture({margin_left + static_cast<double>(i) * (kCell + kCellGap), top}, kCell,
                        kCell, strip.pictures[i]);
       }
     }
     const double bar_top = height - kFooter + 28.0;
     if (run.farthest_m > 0.0) {
-      DrawColorBar(canvas, {kMarginLeft + 10.0, bar_top}, DepthColor, "depth (m)",
+      DrawColorBar(canvas, {margin_left + 10.0, bar_top}, DepthColor, "depth (m)",
                    {fmt::format("{:.1f}", run.nearest_m),
                     fmt::format("{:.2f}", 0.5 * (run.nearest_m + run.farthest_m)),
                     fmt::format("{:.1f}", run.farthest_m)});
     }
     if (run.error_scale_m == 0.0) return;
     const double error_column = static_cast<double>(run.titles.size()) - 2.0;
-    DrawColorBar(canvas, {kMarginLeft + error_column * (kCell + kCellGap) + 10.0, bar_top},
+    DrawColorBar(canvas, {margin_left + error_column * (kCell + kCellGap) + 10.0, bar_top},
                  ErrorColor, "error (mm)",
                  {"0", fmt::format("{:g}", 500.0 * run.error_scale_m),
                   fmt::format("≥ {:g}", 1000.0 * run.error_scale_m)});

@@ -13,6 +13,7 @@
 #include "reports/color_maps.h"
 #include "reports/mesh_view.h"
 #include "reports/picture_source.h"
+#include "reports/picture_window.h"
 #include "reports/surface_pictures.h"
 
 namespace vitruvia {
@@ -22,7 +23,6 @@ constexpr double kSideViewTurn_deg = 60.0;  // of the second viewpoint, about th
 constexpr double kMargin = 1.12;            // of a picture over the body in it
 constexpr double kOverlayOpacity = 0.72;    // of the reconstruction over the depth image
 constexpr double kSmallestErrorScale_m = 0.01;
-constexpr Color kNoDepth{0xf4, 0xf4, 0xf4};
 
 double ErrorScale(const std::vector<std::unique_ptr<PictureSource>>& sources) {
   std::vector<double> all;
@@ -35,37 +35,6 @@ double ErrorScale(const std::vector<std::unique_ptr<PictureSource>>& sources) {
   return ErrorScaleEnd(std::move(all), kSmallestErrorScale_m);
 }
 
-struct Bounds {
-  double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;  // pixels
-  double extent() const { return std::max(right - left, bottom - top); }
-};
-
-Bounds Projected(const PinholeCamera& camera, const std::vector<Vector3f>& points) {
-  Bounds bounds;
-  for (const Vector3f& point : points) {
-    const Eigen::Vector2d pixel = camera.Project<double>(point.cast<double>());
-    bounds.left = std::min(bounds.left, pixel.x());
-    bounds.right = std::max(bounds.right, pixel.x());
-    bounds.top = std::min(bounds.top, pixel.y());
-    bounds.bottom = std::max(bounds.bottom, pixel.y());
-  }
-  return bounds;
-}
-
-PictureWindow Centered(const Bounds& bounds, double extent) {
-  return {0.5 * (bounds.left + bounds.right - extent), 0.5 * (bounds.top + bounds.bottom - extent),
-          extent, extent};
-}
-
-Vector3f Middle(const std::vector<Vector3f>& points) {
-  Vector3f low = points.front(), high = points.front();
-  for (const Vector3f& point : points) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  return 0.5f * (low + high);
-}
-
 // Turns the body about the camera's vertical through its middle, which shows it as a camera would
 // that walked round it.
 std::vector<Vector3f> Turned(const std::vector<Vector3f>& points, const Vector3f& middle) {
@@ -75,25 +44,6 @@ std::vector<Vector3f> Turned(const std::vector<Vector3f>& points, const Vector3f
   turned.reserve(points.size());
   for (const Vector3f& point : points) turned.push_back(turn * point);
   return turned;
-}
-
-ColorImage DepthPicture(const DepthImage& depth, const PictureWindow& part, double nearest_m,
-                        double farthest_m) {
-  ColorImage picture(kPictureSize, kPictureSize);
-  for (int y = 0; y < kPictureSize; ++y) {
-    for (int x = 0; x < kPictureSize; ++x) {
-      const auto pixel_of = [](double start, double extent, int at) {
-        return static_cast<int>(std::floor(start + extent * (at + 0.5) / kPictureSize));
-      };
-      const int u = pixel_of(part.left, part.width, x), v = pixel_of(part.top, part.height, y);
-      Color color = kNoDepth;
-      if (depth.Contains(u, v) && depth(u, v) > 0.0f) {
-        color = DepthColor((depth(u, v) - nearest_m) / (farthest_m - nearest_m));
-      }
-      picture(x, y) = {color[0], color[1], color[2], 255};
-    }
-  }
-  return picture;
 }
 
 ColorImage Over(const ColorImage& front, ColorImage back, double opacity) {
@@ -121,18 +71,18 @@ struct Framing {
   double front_m = 0.0, side_m = 0.0;  // width and height
 };
 
-// A length at the depth of a point, in pixels.
-double Pixels(const PinholeCamera& camera, double length_m, const Vector3f& at) {
-  return length_m * camera.fx / static_cast<double>(at.z());
-}
-
 // Draws a run's strips.
 class StripPainter {
  public:
   StripPainter(const PictureSource& source, MeshView& view, RunPictures& run)
       : source_(source), view_(view), run_(run), camera_(source.sequence().info().camera) {
     FindFraming();
-    FindDepthRange();
+    DepthRange range;
+    for (const PictureFrame& frame : source_.frames()) {
+      range.Include(source_.sequence().ReadDepth(frame.number));
+    }
+    run_.nearest_m = range.nearest_m();
+    run_.farthest_m = range.farthest_m();
   }
 
   PictureStrip Paint(const PictureFrame& frame) {
@@ -190,7 +140,7 @@ class StripPainter {
                   const std::vector<Vector3f>& estimate, std::vector<ColorImage>& pictures) {
     const auto& triangles = source_.estimate().rest_mesh().triangles;
     const ColorImage depth = DepthPicture(source_.sequence().ReadDepth(frame.number), front,
-                                          run_.nearest_m, run_.farthest_m);
+                                          kPictureSize, run_.nearest_m, run_.farthest_m);
     const ColorImage seen = view_.Draw(camera_, front, {{&estimate, &triangles, {kEstimateColor}}});
     pictures.push_back(depth);
     pictures.push_back(Over(seen, depth, kOverlayOpacity));
@@ -221,22 +171,6 @@ class StripPainter {
       widen(framing_.front_m, body);
       widen(framing_.side_m, Turned(body, middle));
     }
-  }
-
-  // Ends of the depth colours: the measured range in steps of a decimetre.
-  void FindDepthRange() {
-    float nearest = std::numeric_limits<float>::max(), farthest = 0.0f;
-    for (const PictureFrame& frame : source_.frames()) {
-      const DepthImage depth = source_.sequence().ReadDepth(frame.number);
-      for (const float z_m : depth.pixels()) {
-        if (z_m <= 0.0f) continue;
-        nearest = std::min(nearest, z_m);
-        farthest = std::max(farthest, z_m);
-      }
-    }
-    if (farthest == 0.0f) nearest = 0.0f;
-    run_.nearest_m = std::floor(10.0 * nearest) / 10.0;
-    run_.farthest_m = std::max(std::ceil(10.0 * farthest) / 10.0, run_.nearest_m + 0.1);
   }
 
   const PictureSource& source_;
@@ -271,6 +205,8 @@ std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment) {
   for (const RunRecord* run : experiment.finished()) {
     RunPictures pictures;
     pictures.run_id = run->run_id;
+    pictures.keys = {{kEstimateColor, "reconstruction"},
+                     {kTruthColor, "truth; where both are drawn, the nearer shows"}};
     if (HasSurfaceStrips(experiment.folder / run->run_id)) {
       sources.push_back(nullptr);
     } else {
@@ -291,7 +227,11 @@ std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment) {
       DrawSurfaceStrips(experiment.folder / all[r].run_id, view, all[r]);
       continue;
     }
-    if (sources[r]->has_truth()) all[r].error_scale_m = error_scale_m;
+    if (sources[r]->has_truth()) {
+      all[r].error_scale_m = error_scale_m;
+    } else {
+      all[r].keys = {{kEstimateColor, "reconstruction"}};
+    }
     StripPainter painter(*sources[r], view, all[r]);
     for (const PictureFrame& frame : sources[r]->frames()) {
       all[r].strips.push_back(painter.Paint(frame));

@@ -20,12 +20,18 @@ struct PictureStrip {
   std::vector<ColorImage> pictures;  // in the order of the run's titles
 };
 
+struct ColorKey {
+  Color color;
+  std::string meaning;
+};
+
 struct RunPictures {
   std::string run_id;
   std::string problem;                       // why there are none; "" when all is well
   std::vector<std::string> titles;           // of a strip's pictures
   double nearest_m = 0.0, farthest_m = 0.0;  // ends of the depth colours; both 0: no depth shown
-  double error_scale_m = 0.0;                // end of the error colours; 0: no error shown
+  double error_scale_m = 0.0;                // end of the error colours; 0: no errors shown
+  std::vector<ColorKey> keys;                // what plain colours mean
   std::vector<PictureStrip> strips;
 };
 

@@ -4,6 +4,7 @@
 #include "reports/html_page.h"
 #include "reports/pictures.h"
 #include "reports/run_plots.h"
+#include "reports/side_by_side.h"
 #include "reports/tables.h"
 
 namespace vitruvia {
@@ -44,7 +45,8 @@ fs::path WriteReport(const fs::path& experiment_folder) {
                  "Drawn by vitruvia; drawn anew with each report.\n");
   const std::vector<DrawnFigure> figures =
       DrawFigures(writer, MakeFigures(experiment), figures_folder.path());
-  const std::vector<RunPictures> pictures = MakePictures(experiment);
+  std::vector<RunPictures> pictures = MakeSideBySide(experiment);
+  for (RunPictures& run : MakePictures(experiment)) pictures.push_back(std::move(run));
   WritePictureSheets(writer, pictures, figures_folder.path());
   figures_folder.Commit();
 

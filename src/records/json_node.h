@@ -49,6 +49,10 @@ class JsonNode {
     if (!json_->is_number_integer()) Fail("expected an integer");
     return json_->get<int>();
   }
+  bool Flag() const {
+    if (!json_->is_boolean()) Fail("expected true or false");
+    return json_->get<bool>();
+  }
 
   // What `parse` makes of each item of a list.
   template <class Parse>

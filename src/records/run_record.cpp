@@ -107,6 +107,9 @@ ExperimentRecord ParseExperimentRecord(const JsonNode& node) {
   e.expectations = node.At("expectations").List(ParseExpectation);
   e.picture_frames =
       node.At("picture_frames").List([](const JsonNode& item) { return item.Integer(); });
+  if (node.json().contains("side_by_side")) {  // older records have none
+    e.side_by_side = node.At("side_by_side").Flag();
+  }
   e.run_ids = node.At("run_ids").Texts();
   e.failed_runs = node.At("failed_runs").Map([](const JsonNode& item) { return item.Text(); });
   return e;
@@ -165,6 +168,7 @@ void to_json(Json& json, const ExperimentRecord& e) {
           {"description", e.description},
           {"expectations", e.expectations},
           {"picture_frames", e.picture_frames},
+          {"side_by_side", e.side_by_side},
           {"run_ids", e.run_ids},
           {"failed_runs", e.failed_runs}};
 }

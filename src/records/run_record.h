@@ -69,6 +69,7 @@ struct ExperimentRecord {
   std::string title, description;
   std::vector<Expectation> expectations;
   std::vector<int> picture_frames;   // where the report's picture strips are taken
+  bool side_by_side = false;         // whether the report shows runs below each other
   std::vector<std::string> run_ids;  // in the order of the grid; a missing run is reported as such
   std::map<std::string, std::string> failed_runs;  // run id → reason
 

@@ -145,6 +145,7 @@ TEST_F(RunRecordTest, ExperimentRoundTripsWithAndWithoutATarget) {
   written.expectations = {{"l2_mean_of_diagonal", 0.001, 0.001, "paper A, figure 11", "other body"},
                           {"frame_ms_median", 25.0, kNan, "paper A, table 1", "other CPU"}};
   written.picture_frames = {0, 150};
+  written.side_by_side = true;
   written.run_ids = {"a", "b"};
   written.failed_runs = {{"b", "lost in frame 3"}};
   WriteExperimentRecord(folder_, written);
