@@ -160,7 +160,8 @@ RunPictures Painted(const ReportedExperiment& experiment, const RunsOfSequence& 
                     MeshView& view) {
   const RunRecord& first = *runs.front().run;
   RunPictures pictures;
-  pictures.run_id = fmt::format("side-by-side-{}.s{}", first.scene, first.seed);
+  // Variants can change a scene: only the folder's name tells its sequences apart.
+  pictures.run_id = "side-by-side-" + first.sequence_folder.filename().string();
   try {
     const SequenceReader sequence((experiment.folder / first.sequence_folder).lexically_normal());
     if (!sequence.info().surface) {

@@ -94,7 +94,10 @@ TEST(SubjectFaults, ABoneWithoutVerticesHandsItsWeightsToItsParent) {
 TEST(SubjectFaults, TrianglesAreAddedAndNoneIsLost) {
   const BodyModel whole = TinyBody(2);
   BodyModel body = whole;
-  DamageSubject({.duplicate_triangles = 7, .degenerate_triangles = 5}, body);
+  SubjectFaultSettings settings;
+  settings.duplicate_triangles = 7;
+  settings.degenerate_triangles = 5;
+  DamageSubject(settings, body);
   const std::size_t count = whole.rest.triangles.size();
   ASSERT_EQ(body.rest.triangles.size(), count + 12);
   for (std::size_t t = 0; t < count; ++t) {
@@ -127,8 +130,11 @@ TEST(SubjectFaults, ARootOrAnUnknownBoneIsRefused) {
 
 TEST(InputFaults, AreNoneUnlessSomethingIsDamaged) {
   EXPECT_TRUE(InputFaultSettings{}.AreNone());
-  EXPECT_FALSE(InputFaultSettings{.depth = {.kind = DepthFault::kZero}}.AreNone());
-  EXPECT_FALSE(InputFaultSettings{.subject = {.duplicate_triangles = 1}}.AreNone());
+  InputFaultSettings depth, subject;
+  depth.depth.kind = DepthFault::kZero;
+  subject.subject.duplicate_triangles = 1;
+  EXPECT_FALSE(depth.AreNone());
+  EXPECT_FALSE(subject.AreNone());
 }
 
 }  // namespace

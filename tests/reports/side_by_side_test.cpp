@@ -28,7 +28,7 @@ TEST_F(SideBySide, ShowsDepthTruthAndEveryRunAtThePictureFrames) {
   const std::vector<RunPictures> sheets = MakeSideBySide(experiment_);
   ASSERT_EQ(sheets.size(), 1u);
   const RunPictures& sheet = sheets.front();
-  EXPECT_EQ(sheet.run_id, "side-by-side-wave.s1");
+  EXPECT_EQ(sheet.run_id, "side-by-side-wave");
   EXPECT_EQ(sheet.problem, "");
   EXPECT_THAT(sheet.titles, ElementsAre("frame 0, 0.00 s", "frame 6, 0.20 s"));
   std::vector<std::string> labels;
