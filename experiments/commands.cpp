@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/message.h"
 #include "core/progress.h"
 #include "core/write_failure.h"
 #include "experiments/compare_command.h"
@@ -175,10 +177,13 @@ int RunCommandLine(int argc, const char* const* argv) {
     app.exit(error);
     return static_cast<int>(ExitCode::kBadConfiguration);
   } catch (const Error& error) {
-    fmt::print(stderr, "vitruvia: {}\n", error.what());
+    PrintMessage("vitruvia: {}\n", error.what());
     return static_cast<int>(error.code());
+  } catch (const std::system_error& error) {  // standard output that takes no more, say
+    PrintMessage("vitruvia: {}\n", error.what());
+    return static_cast<int>(ExitCode::kFailedRun);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "vitruvia: internal error: {}\n", error.what());
+    PrintMessage("vitruvia: internal error: {}\n", error.what());
     return static_cast<int>(ExitCode::kInternalError);
   }
 }

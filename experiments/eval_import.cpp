@@ -119,26 +119,34 @@ std::string PlainName(const std::string& name) {
 
 constexpr const char* kUnnamedJoint = "joint_";  // and its id
 
-// The nearest marker's name for each joint that has one near enough.
+// The name of each joint's nearest marker, if that is near enough and nearer to no other joint.
 std::map<int, std::string> NearestMarkers(const Survey& survey, double within_m) {
-  std::map<int, std::string> nearest;
+  struct Claim {
+    int joint = 0;
+    double distance_m = 0.0;
+  };
+  std::map<std::string, Claim> claims;
   for (const auto& [id, distances] : survey.markers_of) {
-    double least_m = within_m;
-    for (const auto& [name, distance] : distances) {
-      if (distance.Mean() > least_m || PlainName(name).starts_with(kUnnamedJoint)) continue;
-      least_m = distance.Mean();
-      nearest[id] = PlainName(name);
-    }
+    const auto nearest = std::min_element(
+        distances.begin(), distances.end(),
+        [](const auto& a, const auto& b) { return a.second.Mean() < b.second.Mean(); });
+    if (nearest == distances.end() || nearest->second.Mean() > within_m) continue;
+    const std::string name = PlainName(nearest->first);
+    if (name.starts_with(kUnnamedJoint)) continue;
+    const Claim claim{id, nearest->second.Mean()};
+    const auto [other, is_first] = claims.emplace(name, claim);
+    if (!is_first && claim.distance_m < other->second.distance_m) other->second = claim;
   }
-  return nearest;
+  std::map<int, std::string> names;
+  for (const auto& [name, claim] : claims) names[claim.joint] = name;
+  return names;
 }
 
 // Ids in their order, with names.
 std::map<int, std::string> NameJoints(const Survey& survey, const EvalImportSettings& settings) {
   const std::map<int, std::string> markers = NearestMarkers(survey, settings.marker_within_m);
-  std::map<std::string, int> claims;
-  for (const EvalJointName& told : settings.joints) ++claims[told.name];
-  for (const auto& [id, name] : markers) ++claims[name];
+  std::set<std::string> taken;
+  for (const EvalJointName& told : settings.joints) taken.insert(told.name);
   std::map<int, std::string> names;
   for (const auto& [id, distances] : survey.markers_of) {
     const auto told =
@@ -147,7 +155,7 @@ std::map<int, std::string> NameJoints(const Survey& survey, const EvalImportSett
     const auto marker = markers.find(id);
     if (told != settings.joints.end()) {
       names[id] = told->name;
-    } else if (marker != markers.end() && claims[marker->second] == 1) {
+    } else if (marker != markers.end() && !taken.contains(marker->second)) {
       names[id] = marker->second;
     } else {
       names[id] = fmt::format("{}{}", kUnnamedJoint, id);

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/message.h"
 #include "core/progress.h"
 #include "core/timer.h"
 #include "experiments/child_process.h"
@@ -24,7 +25,7 @@ constexpr std::chrono::milliseconds kLookAgainAfter{20};
 FileLock LockMachine(LockKind kind) {
   const fs::path file = fs::temp_directory_path() / fmt::format("vitruvia-runs-{}.lock", getuid());
   if (std::optional<FileLock> lock = FileLock::Try(file, kind)) return std::move(*lock);
-  fmt::print(stderr, "waiting: timed runs go alone on their machine, and others are going on\n");
+  PrintMessage("waiting: timed runs go alone on their machine, and others are going on\n");
   return FileLock::Wait(file, kind);
 }
 
@@ -48,7 +49,7 @@ int CarryOutOne(const PlannedRun& run, int jobs, const fs::path& folder) {
   } catch (const Error& error) {
     return static_cast<int>(error.code());
   } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    PrintMessage("{}\n", error.what());
     return static_cast<int>(ExitCode::kInternalError);
   }
 }
@@ -109,7 +110,7 @@ class Scheduler {
     MarkBegun(FolderOf(i));
     RemoveUnfinished(FolderOf(i) / "estimate");
     if (!messages.empty()) fs::remove(messages);
-    fmt::print(stderr, "run {}/{}: {}\n", i + 1, runs_.size(), run.run_id);
+    PrintMessage("run {}/{}: {}\n", i + 1, runs_.size(), run.run_id);
     const bool prepares = run.shares && !run.shares->complete();
     in_flight_.emplace(
         i, InFlight{std::move(claim), prepares ? run.shares->path().string() : std::string()});
@@ -138,14 +139,13 @@ class Scheduler {
       }
       ++outcome_.failed;
       const std::string reason = StatusOf(FolderOf(i), run.key).reason;
-      fmt::print(stderr, "run failed: {}: {}\n", run.run_id,
-                 reason.empty() ? "no status could be written" : reason);
+      PrintMessage("run failed: {}: {}\n", run.run_id,
+                   reason.empty() ? "no status could be written" : reason);
     }
   }
 
   void NoteElsewhere(std::size_t i) {
-    if (elsewhere_.insert(i).second)
-      fmt::print(stderr, "another process is at {}\n", runs_[i]->run_id);
+    if (elsewhere_.insert(i).second) PrintMessage("another process is at {}\n", runs_[i]->run_id);
   }
 
   fs::path FolderOf(std::size_t i) const { return folder_ / runs_[i]->run_id; }

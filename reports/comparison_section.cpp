@@ -16,9 +16,11 @@ std::string SpreadText(const SampleSpread& spread, const MetricName& metric) {
   return text;
 }
 
+constexpr const char* kNoInterval = "–";  // of a single pair
+
 std::string IntervalText(const VariantComparison& row) {
   const Interval& interval = row.comparison.interval;
-  if (std::isinf(interval.low)) return "–";
+  if (std::isinf(interval.low)) return kNoInterval;
   return fmt::format("{} … {}", PrintedSigned(interval.low, row.metric),
                      PrintedSigned(interval.high, row.metric));
 }
@@ -56,10 +58,10 @@ std::string SummaryOf(const VariantSummary::Cell& cell, const MetricName& metric
   std::string text = SpreadText(cell.spread, metric);
   if (cell.difference) {
     const std::string verdict = VerdictText(*cell.difference);
-    text +=
-        fmt::format("<small class=\"{}\" title=\"{}\">{}<br>[{}]</small>", VerdictClass(verdict),
-                    verdict, PrintedSigned(cell.difference->comparison.difference.mean, metric),
-                    IntervalText(*cell.difference));
+    const std::string interval = IntervalText(*cell.difference);
+    text += fmt::format("<small class=\"{}\" title=\"{}\">{}{}</small>", VerdictClass(verdict),
+                        verdict, PrintedSigned(cell.difference->comparison.difference.mean, metric),
+                        interval == kNoInterval ? "" : "<br>[" + interval + "]");
   }
   return fmt::format("<td class=\"n\" data-label=\"{}\" data-value=\"{}\">{}</td>",
                      Escaped(Titled(metric)), cell.spread.mean, text);

@@ -11,6 +11,7 @@
 #include "reports/page_assets.h"
 #include "reports/picture_section.h"
 #include "reports/tables.h"
+#include "reports/variant_comparison.h"
 
 namespace vitruvia {
 namespace {
@@ -57,10 +58,11 @@ std::string Header(const ReportedExperiment& experiment) {
   return fmt::format(
       "<header><p class=\"kicker\"><code>{}</code></p><h1>{}</h1><p>{}</p>"
       "<p class=\"soft\">{}.</p>{}"
-      "<nav><a href=\"#papers\">Paper and ours</a>{}<a href=\"#pictures\">Pictures</a>{}"
+      "<nav>{}<a href=\"#papers\">Paper and ours</a>{}<a href=\"#pictures\">Pictures</a>{}"
       "<a href=\"#runs\">All runs</a><a href=\"#provenance\">Provenance</a></nav></header>\n",
       Escaped(experiment.record.name), Escaped(experiment.record.title),
       Escaped(experiment.record.description), status, NotScoredText(runs),
+      ContendersOf(experiment).size() < 2 ? "" : "<a href=\"#summary\">Variants</a>",
       tracked ? "<a href=\"#plots\">Plots</a>" : "",
       tracked ? "<a href=\"#steps\">Time per step</a>" : "");
 }

@@ -158,13 +158,18 @@ std::vector<double> ValuesOf(const Contender& contender, const std::string& metr
   return values;
 }
 
+// Without those that are 0 in all runs; means of counts are no whole numbers.
 std::vector<MetricName> TabulatedMetrics(const std::vector<Contender>& contenders) {
   std::vector<MetricName> metrics;
   for (const char* metric : kTabulatedMetrics) {
-    if (std::any_of(contenders.begin(), contenders.end(), [metric](const Contender& contender) {
-          return !ValuesOf(contender, metric).empty();
-        }))
-      metrics.push_back(NameOfMetric(metric));
+    const bool says_something =
+        std::any_of(contenders.begin(), contenders.end(), [metric](const Contender& contender) {
+          const std::vector<double> values = ValuesOf(contender, metric);
+          return std::any_of(values.begin(), values.end(), [](double v) { return v != 0.0; });
+        });
+    if (!says_something) continue;
+    metrics.push_back(NameOfMetric(metric));
+    metrics.back().decimals = std::max(metrics.back().decimals, 1);
   }
   return metrics;
 }

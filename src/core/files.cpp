@@ -108,10 +108,14 @@ StagedFolder::StagedFolder(fs::path destination, const std::string& mark)
     throw RunError(fmt::format("{}: holds other things (there is no {}) and is not overwritten",
                                destination_.string(), mark));
   }
-  if (destination_.has_parent_path()) MakeFolder(destination_.parent_path());
   staging_ = TemporaryName(destination_);
   fs::remove_all(staging_, error);
-  MakeFolder(staging_);
+  try {
+    if (destination_.has_parent_path()) MakeFolder(destination_.parent_path());
+    MakeFolder(staging_);
+  } catch (const RunError& reason) {
+    throw RunError(fmt::format("{}: cannot be written: {}", destination_.string(), reason.what()));
+  }
 }
 
 StagedFolder::~StagedFolder() {

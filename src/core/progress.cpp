@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/message.h"
 
 namespace vitruvia {
 namespace {
@@ -25,9 +26,9 @@ Progress::Progress(std::string label, int total)
 Progress::~Progress() {
   if (terminal_) {
     Draw();
-    fmt::print(stderr, "\n");
+    PrintMessage("\n");
   } else {
-    fmt::print(stderr, "{}: {}/{} in {:.1f} s\n", label_, done_, total_, watch_.ElapsedMs() / 1e3);
+    PrintMessage("{}: {}/{} in {:.1f} s\n", label_, done_, total_, watch_.ElapsedMs() / 1e3);
   }
 }
 
@@ -40,8 +41,8 @@ void Progress::Advance(int steps) {
 void Progress::Draw() {
   last_drawn_ms_ = watch_.ElapsedMs();
   const int filled = std::min(kBarWidth, kBarWidth * done_ / total_);
-  fmt::print(stderr, "\r{:<40.40} [{:<{}}] {}/{} {:.0f} s ", label_, std::string(filled, '#'),
-             kBarWidth, done_, total_, last_drawn_ms_ / 1e3);
+  PrintMessage("\r{:<40.40} [{:<{}}] {}/{} {:.0f} s ", label_, std::string(filled, '#'), kBarWidth,
+               done_, total_, last_drawn_ms_ / 1e3);
   std::fflush(stderr);
 }
 

@@ -8,6 +8,7 @@
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/json_settings.h"
+#include "core/message.h"
 #include "core/progress.h"
 #include "geometry/surface_map.h"
 #include "sequence/sequence.h"
@@ -153,7 +154,7 @@ void RequireInRange(const std::vector<Vector3f>& vertices_in_camera, int frame) 
 }
 
 void Warn(const std::string& warning) {
-  if (!warning.empty()) fmt::print(stderr, "warning: {}\n", warning);
+  if (!warning.empty()) PrintMessage("warning: {}\n", warning);
 }
 
 }  // namespace
