@@ -46,8 +46,8 @@ struct EvalImport {
 // Writes the sequence (sequence/sequence.h): the files are parts of one recording, in this order.
 // The camera is fitted to the points. A joint is called what the settings say; else after the
 // marker that lies nearest on average, if that is nearer than marker_within_m and to no other joint
-// nearer still ("Left Elbow" is left_elbow); else joint_ID. DataError if the files are damaged or no
-// pinhole camera sees what they hold.
+// nearer still ("Left Elbow" is left_elbow); else joint_ID. DataError if the files are damaged or
+// no pinhole camera sees what they hold.
 EvalImport ImportEvalSequence(const std::vector<std::filesystem::path>& files,
                               const EvalImportSettings& settings,
                               const std::filesystem::path& folder);

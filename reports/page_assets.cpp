@@ -30,6 +30,7 @@ td.n, th.n { text-align: right; white-space: nowrap; }
 thead th { font-weight: 600; border-bottom: 2px solid var(--ink); vertical-align: bottom; }
 tr.group th { background: var(--band); font-weight: 600; padding-top: .7rem; }
 tr.group small { display: block; font-weight: 400; color: var(--soft); font-size: .88rem; }
+.variants th.n { white-space: normal; }
 .variants small { display: block; font-size: .82em; font-weight: 400; }
 tr.total td { font-weight: 600; border-top: 2px solid var(--ink); }
 td.problem { color: var(--bad); overflow-wrap: anywhere; }

@@ -57,7 +57,8 @@ ComparedRun Compare(const ReportedRun& run, const Expectation& e, const MetricNa
   const double ours = NumberOrNone(*run.record, e.metric);
   if (std::isnan(ours)) return compared;
   compared.ours = Printed(ours, metric);
-  if (!std::isnan(e.paper)) compared.difference = PrintedSigned(ours - e.paper, metric);
+  if (!std::isnan(e.paper) && e.not_comparable.empty())
+    compared.difference = PrintedSigned(ours - e.paper, metric);
   if (!e.not_comparable.empty())
     compared.verdict = Verdict::kNotComparable;
   else if (!std::isnan(e.at_most))
