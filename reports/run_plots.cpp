@@ -61,7 +61,6 @@ std::vector<Series> LinesPerFrame(const Runs& runs, const std::string& key,
                                   double (*unit_of)(const RunRecord&)) {
   std::vector<Series> lines;
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    if (!runs[r]->frames.contains(key)) continue;  // measured against truth that it has not
     Series line;
     line.name = runs[r]->run_id;
     line.color = kRunColors[r];
@@ -196,13 +195,12 @@ std::vector<Figure> MakeFigures(const ReportedExperiment& experiment) {
   std::erase_if(runs, [](const RunRecord* run) { return run->frames.empty(); });
   const std::vector<RunGroup> groups = Grouped(runs);
   if (groups.empty()) return figures;
-  // For those groups of which some run measured what the figure shows.
+  // Of the runs that measured what the figure shows.
   const auto add_for_each_group = [&](Figure (*make)(const ExperimentRecord&, const RunGroup&),
                                       bool (*has)(const RunRecord&)) {
-    for (const RunGroup& group : groups) {
-      if (std::none_of(group.runs.begin(), group.runs.end(),
-                       [has](const RunRecord* run) { return has(*run); }))
-        continue;
+    for (RunGroup group : groups) {
+      std::erase_if(group.runs, [has](const RunRecord* run) { return !has(*run); });
+      if (group.runs.empty()) continue;
       Figure figure = make(experiment.record, group);
       if (!group.suffix.empty()) {
         figure.name = fmt::format("{}-{}", figure.name, FileSafe(group.suffix));
