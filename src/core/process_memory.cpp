@@ -1,6 +1,7 @@
 #include "core/process_memory.h"
 
 #include <fstream>
+#include <malloc.h>
 #include <string>
 
 namespace vitruvia {
@@ -23,6 +24,7 @@ double ResidentMemory_mb() { return StatusLine_mb("VmRSS:"); }
 double PeakMemory_mb() { return StatusLine_mb("VmHWM:"); }
 
 void ForgetPeakMemory() {
+  malloc_trim(0);  // what is free but resident would be used again uncounted
   constexpr char kResetPeak = '5';
   std::ofstream("/proc/self/clear_refs") << kResetPeak;
 }

@@ -7,7 +7,8 @@ namespace vitruvia {
 double ResidentMemory_mb();
 // The most that was resident since the process began or since ForgetPeakMemory.
 double PeakMemory_mb();
-// Lets the peak begin anew from what is resident now. A kernel that refuses keeps the old one.
+// Gives memory that is free back to the system and lets the peak begin anew from what is resident
+// then. A kernel that refuses keeps the old peak.
 void ForgetPeakMemory();
 
 }  // namespace vitruvia
