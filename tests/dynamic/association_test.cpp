@@ -88,7 +88,7 @@ TEST(Association, FindsWhatBruteForceFinds) {
         for (const Patch& patch : c.surface.layout.patches) {
           association.ProjectPatch(patch, c.surface, limits);
         }
-        association.FillBuckets(c.surface);
+        association.FillBuckets(c.surface, team);
         association.FindNearest(c.cloud, limits, team);
         for (std::size_t i = 0; i < c.cloud.points.size(); ++i) {
           ASSERT_EQ(association.nearest()[i],
@@ -108,8 +108,8 @@ TEST(Association, AveragesThePointsThatChoseAVertex) {
   for (const Patch& patch : c.surface.layout.patches) {
     association.ProjectPatch(patch, c.surface, limits);
   }
-  association.FillBuckets(c.surface);
   WorkerTeam team(1);
+  association.FillBuckets(c.surface, team);
   association.FindNearest(c.cloud, limits, team);
   Observations<float> observations;
   association.Observe(c.cloud, observations);

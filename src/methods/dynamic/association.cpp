@@ -27,7 +27,7 @@ Association::Association(const PinholeCamera& camera, const SurfaceLayout& layou
       bucket_begin_(static_cast<std::size_t>(camera.width) * camera.height + 1, 0),
       column_ray_(camera.width),
       row_ray_(camera.height) {
-  facing_.reserve(layout.slot_count());
+  facing_.reserve(pixels_.size());
   sorted_.Resize(layout.slot_count() + kLanes);
   sorted_slots_.resize(layout.slot_count() + kLanes);
   nearest_.reserve(static_cast<std::size_t>(camera.width) * camera.height);
@@ -61,30 +61,55 @@ void Association::ProjectPatch(const Patch& patch, const Surface<float>& surface
   }
 }
 
-// A counting sort: sizes, ends, then the entries from the back, which turns ends into begins.
-void Association::FillBuckets(const Surface<float>& surface) {
-  int lowest = static_cast<int>(bucket_begin_.size()), highest = -1;
-  facing_.clear();
+// Without a branch that could be foreseen wrongly.
+void Association::FindFacing() {
+  int lowest = static_cast<int>(bucket_begin_.size()), highest = -1, count = 0;
+  facing_.resize(pixels_.size());
   for (int slot = 0; slot < static_cast<int>(pixels_.size()); ++slot) {
-    if (pixels_[slot] < 0) continue;
-    lowest = std::min(lowest, pixels_[slot]);
-    highest = std::max(highest, pixels_[slot]);
-    facing_.push_back(slot);
+    const int pixel = pixels_[slot];
+    const bool faces = pixel >= 0;
+    facing_[count] = slot;
+    count += faces ? 1 : 0;
+    lowest = std::min(lowest, faces ? pixel : lowest);
+    highest = std::max(highest, pixel);
   }
+  facing_.resize(count);
   first_row_ = lowest / camera_.width;
   last_row_ = highest < 0 ? -1 : highest / camera_.width;
-  if (facing_.empty()) return;
-  const int begin = first_row_ * camera_.width, end = (last_row_ + 1) * camera_.width;
-  std::fill(bucket_begin_.begin() + begin, bucket_begin_.begin() + end + 1, 0);
-  for (const int slot : facing_) ++bucket_begin_[pixels_[slot]];
-  int sum = 0;
+}
+
+// A counting sort: sizes, ends, then the entries from the back, which turns ends into begins.
+void Association::SortIntoBuckets(const Surface<float>& surface, int begin, int end) {
+  const auto mine = [&](int slot) { return pixels_[slot] >= begin && pixels_[slot] < end; };
+  std::fill(bucket_begin_.begin() + begin, bucket_begin_.begin() + end, 0);
+  int entries = 0;
+  for (const int slot : facing_) {
+    if (!mine(slot)) continue;
+    ++bucket_begin_[pixels_[slot]];
+    ++entries;
+  }
+  // The first pixels' entries come first; those of the last end with the last entry.
+  int sum = begin == first_row_ * camera_.width ? 0 : static_cast<int>(facing_.size()) - entries;
   for (int pixel = begin; pixel < end; ++pixel) bucket_begin_[pixel] = sum += bucket_begin_[pixel];
-  bucket_begin_[end] = sum;
   for (auto slot = facing_.rbegin(); slot != facing_.rend(); ++slot) {
+    if (!mine(*slot)) continue;
     const int at = --bucket_begin_[pixels_[*slot]];
     sorted_.Set(at, surface.posed.At(*slot));
     sorted_slots_[at] = *slot;
   }
+}
+
+void Association::FillBuckets(const Surface<float>& surface, WorkerTeam& team) {
+  FindFacing();
+  if (facing_.empty()) return;
+  const int rows = last_row_ + 1 - first_row_;
+  constexpr int kParts = 2;  // so that none has to wait for another's count
+  team.For(kParts, 1, [&](int part, int next) {
+    SortIntoBuckets(surface, (first_row_ + rows * part / kParts) * camera_.width,
+                    (first_row_ + rows * next / kParts) * camera_.width);
+  });
+  bucket_begin_[static_cast<std::size_t>(last_row_ + 1) * camera_.width] =
+      static_cast<int>(facing_.size());
 }
 
 void Association::FindLongestRays(int window_px) {

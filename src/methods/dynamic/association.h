@@ -46,7 +46,7 @@ class Association {
   void ProjectPatch(const Patch& patch, const Surface<float>& surface,
                     const AssociationLimits& limits);
   // Sorts the projected vertices into buckets, one for each pixel.
-  void FillBuckets(const Surface<float>& surface);
+  void FillBuckets(const Surface<float>& surface, WorkerTeam& team);
   // For each point of the cloud the closest vertex among the buckets of its window, nearer than the
   // cutoff; of equally close ones the one of the lowest slot; −1 if there is none. The search
   // begins at the point's pixel and ends where the width of a pixel alone makes vertices farther
@@ -68,6 +68,10 @@ class Association {
     Floats squared;
     Ints slot;
   };
+  void FindFacing();
+  // Of the facing slots those with a pixel in begin … end: either the first or the last ones of
+  // all.
+  void SortIntoBuckets(const Surface<float>& surface, int begin, int end);
   void FindLongestRays(int window_px);
   int NearestTo(const Vector3f& point, int pixel, const AssociationLimits& limits) const;
   void ScanRow(const Vector3f& point, int row, int first_column, int last_column, Best& best) const;

@@ -27,7 +27,7 @@ void Level::Match(const TreePose& pose, const AssociationLimits& limits, WorkerT
     }
   });
   times.Lap(kSkin);
-  association.FillBuckets(surface);
+  association.FillBuckets(surface, team);
   association.FindNearest(cloud, limits, team);
   association.Observe(cloud, observations);
   times.Lap(kAssociate);
