@@ -8,16 +8,16 @@
 namespace vitruvia {
 namespace {
 
-// A frame is lost when the tracker says so or when the surface is this far off on average. Without
-// a true surface nobody can say.
+// A frame is lost when the tracker says so or when what the camera could see of the surface is this
+// far off on average. Without a true surface nobody can say.
 constexpr double kLostAbove_m = 0.05;
 
 // How often the subject was lost, and how many frames it took at the longest to find it again; -1
 // if it was not found again before the end.
 void SummarizeLosses(const RunRecord& record, nlohmann::json& row) {
-  if (!record.frames.contains("l2_mean_m")) return;
+  if (!record.frames.contains("l2_mean_visible_m")) return;
   const auto& failed = record.frames.at("failed");
-  const auto& error_m = record.frames.at("l2_mean_m");
+  const auto& error_m = record.frames.at("l2_mean_visible_m");
   int lost = 0, run = 0, longest = 0;
   for (std::size_t i = 0; i < failed.size(); ++i) {
     run = failed[i] > 0.0 || error_m[i] > kLostAbove_m ? run + 1 : 0;

@@ -11,7 +11,7 @@ namespace {
 RunRecord Record() {
   RunRecord record;
   record.frames = {{"failed", {0, 0, 1, 0, 0, 0, 0, 0}},
-                   {"l2_mean_m", {0.001, 0.002, 0.01, 0.06, 0.07, 0.01, 0.01, 0.01}},
+                   {"l2_mean_visible_m", {0.001, 0.002, 0.01, 0.06, 0.07, 0.01, 0.01, 0.01}},
                    {"condition", {10, 20, 90, 30, 30, 30, 30, 30}},
                    {"rotation_drift", {0, 0, 1e-16, 0, 0, 0, 0, 2e-16}},
                    {"energy_fit", {1, 1, 1, 1, 1, 1, 1, 9}},
