@@ -76,6 +76,26 @@ TEST(Dynamic, SaysLostWhenTheDataAreElsewhere) {
   }
 }
 
+TEST(Dynamic, FewPointsAmongManyOthersDoNotCarryTheBodyAway) {
+  Stage stage;
+  Dynamic tracker(Settings{}, HumanSkeleton());
+  tracker.Start(stage.body, stage.camera);
+  const TrackResult before = tracker.TrackFrame(stage.Frame(0, 0.0));
+  for (int i = 1; i <= 5; ++i) {
+    // A wall before the camera leaves the left of the image to see, and what is there has moved.
+    DepthFrame frame = stage.Frame(i, 0.1 * i);
+    for (int v = 0; v < frame.depth.height(); ++v) {
+      for (int u = 130; u < frame.depth.width(); ++u) frame.depth(u, v) = 0.9f;
+    }
+    const TrackResult covered = tracker.TrackFrame(frame);
+    EXPECT_EQ(covered.outcome, Outcome::kLost);
+    EXPECT_EQ(covered.vertices, before.vertices);
+  }
+  const TrackResult after = tracker.TrackFrame(stage.Frame(6, 0.0));
+  EXPECT_FALSE(IsFailure(after.outcome)) << after.message;
+  EXPECT_LT(stage.MeanError(after, 0.0), 0.01);
+}
+
 TEST(Dynamic, HoldsWhatIsOutOfView) {
   Stage stage;
   Dynamic tracker(Settings{}, HumanSkeleton());

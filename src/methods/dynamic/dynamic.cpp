@@ -215,7 +215,12 @@ void Dynamic::FitPose(bool first) {
     if (s.iterations > 0 && s.solver.IsHeld(k)) s.theta[k] = s.theta_before[k];
   }
   s.matched_share = level.MatchedShare();
+  if (!first && IsLost()) s.theta = s.theta_before;  // the few points left would carry it away
   s.tree.Pose(s.camera_from_start, s.theta, s.pose);
+}
+
+bool Dynamic::IsLost() const {
+  return session_->matched_share < settings_.lost_below || !session_->solved;
 }
 
 void Dynamic::FitShape(bool first) {
@@ -223,7 +228,7 @@ void Dynamic::FitShape(bool first) {
   const ShapeSettings& settings = settings_.shape;
   const AssociationSettings& a = settings_.association;
   const bool every_frame = settings_.mode == Mode::kFull;
-  const bool now = every_frame || (settings_.mode == Mode::kShapeMatch && first);
+  const bool now = (every_frame && !IsLost()) || (settings_.mode == Mode::kShapeMatch && first);
   if (now) {
     const ShapeWeights weights{static_cast<float>(settings.magnitude_weight),
                                static_cast<float>(settings.neighbor_weight)};
@@ -252,11 +257,13 @@ TrackResult Dynamic::Result() const {
   if (s.fine.cloud.points.empty()) {
     result.outcome = Outcome::kNoData;
     result.message = "the frame holds no measurement; pose and shape are carried over";
-  } else if (s.matched_share < settings_.lost_below || !s.solved) {
+  } else if (IsLost()) {
     result.outcome = Outcome::kLost;
     result.message = s.solved
-                         ? fmt::format("{:.0f} % of the points found a vertex within {:g} m",
-                                       100.0 * s.matched_share, settings_.association.cutoff_m)
+                         ? fmt::format(
+                               "{:.0f} % of the points found a vertex within {:g} m; pose "
+                               "and shape are carried over",
+                               100.0 * s.matched_share, settings_.association.cutoff_m)
                          : "the normal equations could not be solved; the pose is carried over";
   } else if (s.converged) {
     result.outcome = Outcome::kConverged;

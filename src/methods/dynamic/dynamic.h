@@ -28,6 +28,7 @@ class Dynamic final : public Tracker {
   void Place();
   void Predict();
   void FitPose(bool first);
+  bool IsLost() const;  // after FitPose
   void FitShape(bool first);
   TrackResult Result() const;
 

@@ -181,12 +181,14 @@ void Settings::Describe(Fields& f) {
             .max = 100,
             .origin = Origin::kGuessed,
             .source = "range of the depth cameras in use"});
-  f.Number("lost_below", lost_below,
-           {.meaning = "a frame is lost when less than this share of the points found a vertex",
-            .min = 0,
-            .max = 1,
-            .origin = Origin::kGuessed,
-            .source = "paper B is silent"});
+  f.Number(
+      "lost_below", lost_below,
+      {.meaning = "a frame is lost, and pose and shape are carried over, when less than this share "
+                  "of the points found a vertex",
+       .min = 0,
+       .max = 1,
+       .origin = Origin::kGuessed,
+       .source = "paper B is silent"});
   f.Integer("threads", threads,
             {.meaning = "threads that a frame is computed on; the result does not depend on it",
              .min = 1,
