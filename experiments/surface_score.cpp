@@ -83,19 +83,21 @@ std::vector<Vector3f> Chosen(const std::vector<Vector3f>& points, const std::vec
 class ReconstructionWatch {
  public:
   ReconstructionWatch(const SequenceReader& sequence, const EstimateReader& estimate, int every)
-      : camera_(sequence.info().camera),
+      : sequence_(sequence),
+        camera_(sequence.info().camera),
         triangles_(estimate.rest_mesh().triangles),
         every_(every),
         zbuffer_(camera_) {}
 
+  bool Measures(int frame) const { return every_ > 0 && frame % every_ == 0; }
+
   // `truth`: null where there is none.
-  void Add(int frame, const std::vector<Vector3f>& estimate, const DepthImage& observed,
-           const TriangleMesh* truth) {
-    if (every_ == 0 || frame % every_ != 0) return;
+  void Add(int frame, const std::vector<Vector3f>& estimate, const TriangleMesh* truth) {
     const DepthImage& seen = zbuffer_.Render(estimate, triangles_);
     const std::vector<Vector3f> visible =
         Chosen(estimate, VisiblePoints(estimate, seen, camera_, kVisibleWithin_m));
-    CloudFromDepth(observed, camera_, 1, std::numeric_limits<float>::infinity(), cloud_);
+    CloudFromDepth(sequence_.ReadDepth(frame), camera_, 1, std::numeric_limits<float>::infinity(),
+                   cloud_);
     Append(DistancesToPoints(visible, cloud_.points), to_observed_m_);
     if (truth != nullptr) Append(DistancesToSurface(visible, *truth), to_truth_m_);
   }
@@ -118,6 +120,7 @@ class ReconstructionWatch {
     all.insert(all.end(), distances.begin(), distances.end());
   }
 
+  const SequenceReader& sequence_;
   PinholeCamera camera_;
   const std::vector<Triangle>& triangles_;
   int every_;
@@ -172,7 +175,7 @@ void ScoreSurface(const SequenceReader& sequence, const EstimateReader& estimate
     const DepthImage& rendered = zbuffer.Render(true_surface.vertices, true_surface.triangles);
     const std::vector<Vector3f> estimated = estimate.ReadVertices(frame);
     if (turns) turns->Add(estimated, truth);
-    reconstruction.Add(frame, estimated, sequence.ReadDepth(frame), &true_surface);
+    if (reconstruction.Measures(frame)) reconstruction.Add(frame, estimated, &true_surface);
     RecordErrors(estimated, truth, VisiblePoints(truth, rendered, camera, kVisibleWithin_m),
                  record);
   }
@@ -189,7 +192,8 @@ void ScoreSurfaces(const SequenceReader& sequence, const EstimateReader& estimat
     ScoreSurface(sequence, estimate, reconstruction, record);
   } else {
     for (int frame = 0; frame < sequence.info().frames; ++frame) {
-      reconstruction.Add(frame, estimate.ReadVertices(frame), sequence.ReadDepth(frame), nullptr);
+      if (!reconstruction.Measures(frame)) continue;
+      reconstruction.Add(frame, estimate.ReadVertices(frame), nullptr);
     }
   }
   reconstruction.Summarize(record.summary);

@@ -16,11 +16,13 @@ std::string SpreadText(const SampleSpread& spread, const MetricName& metric) {
   return text;
 }
 
-constexpr const char* kNoInterval = "–";  // of a single pair
+bool HasInterval(const VariantComparison& row) {  // a single pair has none
+  return !std::isinf(row.comparison.interval.low);
+}
 
 std::string IntervalText(const VariantComparison& row) {
   const Interval& interval = row.comparison.interval;
-  if (std::isinf(interval.low)) return kNoInterval;
+  if (!HasInterval(row)) return "–";
   return fmt::format("{} … {}", PrintedSigned(interval.low, row.metric),
                      PrintedSigned(interval.high, row.metric));
 }
@@ -58,10 +60,10 @@ std::string SummaryOf(const VariantSummary::Cell& cell, const MetricName& metric
   std::string text = SpreadText(cell.spread, metric);
   if (cell.difference) {
     const std::string verdict = VerdictText(*cell.difference);
-    const std::string interval = IntervalText(*cell.difference);
-    text += fmt::format("<small class=\"{}\" title=\"{}\">{}{}</small>", VerdictClass(verdict),
-                        verdict, PrintedSigned(cell.difference->comparison.difference.mean, metric),
-                        interval == kNoInterval ? "" : "<br>[" + interval + "]");
+    text += fmt::format(
+        "<small class=\"{}\" title=\"{}\">{}{}</small>", VerdictClass(verdict), verdict,
+        PrintedSigned(cell.difference->comparison.difference.mean, metric),
+        HasInterval(*cell.difference) ? "<br>[" + IntervalText(*cell.difference) + "]" : "");
   }
   return fmt::format("<td class=\"n\" data-label=\"{}\" data-value=\"{}\">{}</td>",
                      Escaped(Titled(metric)), cell.spread.mean, text);

@@ -92,52 +92,71 @@ double LastFrame(const Runs& runs) {
   return static_cast<double>(frames - 1);
 }
 
-Figure ErrorFigure(const ExperimentRecord& experiment, const RunGroup& group) {
+// What a figure of mean and maximum errors shows: two series of the records, each with the metric
+// that papers publish of it.
+struct ErrorKind {
+  const char* name;
+  const char* title;
+  const char* caption;
+  const char* measured_over;
+  const char* axis;
+  double (*unit_of)(const RunRecord&);
+  const char *mean, *published_mean;
+  const char *maximum, *published_maximum;
+};
+
+Figure MeanAndMaximum(const ErrorKind& kind, const ExperimentRecord& experiment,
+                      const RunGroup& group) {
   Figure figure;
-  figure.name = "error-per-frame";
-  figure.title = "Error per frame";
-  figure.caption =
-      "Mean and maximum distance between corresponding points of the estimated and the true "
-      "surface, as a fraction of the diagonal of the subject's rest-pose bounding box.";
-  Panel mean{"mean over the surface",
-             kFrameAxis,
-             "L2 error / diagonal",
-             LinesPerFrame(group.runs, "l2_mean_m", Diagonal),
-             PublishedReferences(experiment, "l2_mean_of_diagonal"),
-             {}};
-  Panel maximum{"maximum over the surface",
-                kFrameAxis,
-                "L2 error / diagonal",
-                LinesPerFrame(group.runs, "l2_max_m", Diagonal),
-                PublishedReferences(experiment, "l2_max_of_diagonal"),
-                {}};
-  mean.x_end = maximum.x_end = LastFrame(group.runs);
-  figure.panels = {std::move(mean), std::move(maximum)};
+  figure.name = kind.name;
+  figure.title = kind.title;
+  figure.caption = kind.caption;
+  const auto panel = [&](const char* statistic, const char* series, const char* published) {
+    Panel p{fmt::format("{} over the {}", statistic, kind.measured_over),
+            kFrameAxis,
+            kind.axis,
+            LinesPerFrame(group.runs, series, kind.unit_of),
+            PublishedReferences(experiment, published),
+            {}};
+    p.x_end = LastFrame(group.runs);
+    return p;
+  };
+  figure.panels = {panel("mean", kind.mean, kind.published_mean),
+                   panel("maximum", kind.maximum, kind.published_maximum)};
   return figure;
 }
 
+Figure ErrorFigure(const ExperimentRecord& experiment, const RunGroup& group) {
+  return MeanAndMaximum(
+      {.name = "error-per-frame",
+       .title = "Error per frame",
+       .caption =
+           "Mean and maximum distance between corresponding points of the estimated and the true "
+           "surface, as a fraction of the diagonal of the subject's rest-pose bounding box.",
+       .measured_over = "surface",
+       .axis = "L2 error / diagonal",
+       .unit_of = Diagonal,
+       .mean = "l2_mean_m",
+       .published_mean = "l2_mean_of_diagonal",
+       .maximum = "l2_max_m",
+       .published_maximum = "l2_max_of_diagonal"},
+      experiment, group);
+}
+
 Figure JointErrorFigure(const ExperimentRecord& experiment, const RunGroup& group) {
-  Figure figure;
-  figure.name = "joint-error-per-frame";
-  figure.title = "Joint error per frame";
-  figure.caption =
-      "Mean and maximum distance between estimated and true joints. The sequence has no true "
-      "surface.";
-  Panel mean{"mean over the joints",
-             kFrameAxis,
-             "error (m)",
-             LinesPerFrame(group.runs, "joint_error_mean_m", One),
-             PublishedReferences(experiment, "joint_error_mean_m"),
-             {}};
-  Panel maximum{"maximum over the joints",
-                kFrameAxis,
-                "error (m)",
-                LinesPerFrame(group.runs, "joint_error_max_m", One),
-                PublishedReferences(experiment, "joint_error_max_m"),
-                {}};
-  mean.x_end = maximum.x_end = LastFrame(group.runs);
-  figure.panels = {std::move(mean), std::move(maximum)};
-  return figure;
+  return MeanAndMaximum(
+      {.name = "joint-error-per-frame",
+       .title = "Joint error per frame",
+       .caption = "Mean and maximum distance between estimated and true joints. The sequence has "
+                  "no true surface.",
+       .measured_over = "joints",
+       .axis = "error (m)",
+       .unit_of = One,
+       .mean = "joint_error_mean_m",
+       .published_mean = "joint_error_mean_m",
+       .maximum = "joint_error_max_m",
+       .published_maximum = "joint_error_max_m"},
+      experiment, group);
 }
 
 Figure TimeFigure(const ExperimentRecord& experiment, const RunGroup& group) {

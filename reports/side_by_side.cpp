@@ -29,10 +29,11 @@ using RunsOfSequence = std::vector<NamedRun>;
 // In the order of the grid.
 std::vector<RunsOfSequence> GroupedBySequence(const ReportedExperiment& experiment) {
   std::vector<RunsOfSequence> groups;
+  const std::vector<Contender> contenders = ContendersOf(experiment);
   for (const RunRecord* run : experiment.finished()) {
     if (MetricValue(*run, "repeat") > 1.0) continue;  // the same again
     std::string name;
-    for (const Contender& contender : ContendersOf(experiment)) {
+    for (const Contender& contender : contenders) {
       const auto& runs = contender.runs;
       if (std::find(runs.begin(), runs.end(), run) != runs.end()) name = contender.name;
     }

@@ -53,11 +53,11 @@ SpeedPoint PointOf(const Contender& contender, const char* error_metric) {
   return {contender.name, Quantile(frame_ms, 0.5), Quantile(frame_ms, 0.95), Mean(errors)};
 }
 
-std::vector<SpeedPoint> PointsOf(const ReportedExperiment& experiment) {
+std::vector<SpeedPoint> PointsOf(const ReportedExperiment& experiment, const char* error_metric) {
   std::vector<SpeedPoint> points;
   std::vector<Costs> costs;
   for (const Contender& contender : ContendersOf(experiment)) {
-    const SpeedPoint point = PointOf(contender, ErrorMetricOf(experiment));
+    const SpeedPoint point = PointOf(contender, error_metric);
     if (std::isnan(point.median_ms) || std::isnan(point.error)) continue;
     points.push_back(point);
     costs.push_back({point.median_ms, point.error});
@@ -152,7 +152,7 @@ Figure MakeSpeedFigure(const ReportedExperiment& experiment) {
               {},
               PublishedReferences(experiment.record, error_metric),
               PublishedReferences(experiment.record, "frame_ms_median")};
-  const std::vector<SpeedPoint> points = PointsOf(experiment);
+  const std::vector<SpeedPoint> points = PointsOf(experiment, error_metric);
   std::vector<double> times_ms, errors;
   for (const SpeedPoint& point : points) {
     times_ms.insert(times_ms.end(), {point.median_ms, point.p95_ms});

@@ -115,10 +115,6 @@ std::string LatexSummary(const ReportedExperiment& experiment) {
       std::string(table.columns.size() - 1, 'r'), header, rows);
 }
 
-}  // namespace
-
-namespace {
-
 // Those that a column of differences can be taken from.
 std::vector<Expectation> PublishedNumbers(const ExperimentRecord& experiment) {
   std::vector<Expectation> published;

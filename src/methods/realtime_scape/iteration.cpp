@@ -1,9 +1,9 @@
 // One iteration of algorithm 1 (paper A): lines 5 to 12.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "matching/visibility.h"
+#include "math/angles.h"
 #include "methods/realtime_scape/axis_term.h"
 #include "methods/realtime_scape/pose_step.h"
 #include "methods/realtime_scape/session.h"
@@ -153,7 +153,7 @@ void RealtimeScape::WatchEnergy() {
 
 // Line 12.
 bool RealtimeScape::IsSmall(const Step& step) const {
-  return step.rotation_rad < settings_.stopping.rotation_step_deg * std::numbers::pi / 180.0 &&
+  return step.rotation_rad < settings_.stopping.rotation_step_deg * kRadiansPerDegree &&
          step.translation_m < settings_.stopping.translation_step_m;
 }
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
 
 #include <Eigen/SVD>
 
 #include "geometry/kd_tree.h"
 #include "matching/visibility.h"
+#include "math/angles.h"
 
 namespace vitruvia::realtime_scape {
 namespace {
@@ -57,7 +57,7 @@ void KeepBest(double share, std::vector<Match>& matches) {
 }
 
 Rigidd Misplaced(const Rigidd& camera_from_subject, const PlacementSettings& settings) {
-  const double angle = settings.wrong_by_deg * std::numbers::pi / 180.0;
+  const double angle = settings.wrong_by_deg * kRadiansPerDegree;
   const Vector3d shift(settings.wrong_by_m[0], settings.wrong_by_m[1], settings.wrong_by_m[2]);
   return Rigidd{Matrix3<double>::Identity(), shift} * camera_from_subject *
          Rigidd{ExpSo3<double>({0.0, angle, 0.0}), Vector3d::Zero()};
