@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/message.h"
 #include "experiments/child_process.h"
 #include "experiments/planned_experiment.h"
 #include "experiments/runner.h"
@@ -94,7 +95,7 @@ void CallSbatch(const fs::path& script) {
   ChildProcesses sbatch;
   sbatch.Start(0, "", [&script] {
     execlp("sbatch", "sbatch", script.c_str(), nullptr);
-    fmt::print(stderr, "sbatch: {}\n", std::strerror(errno));
+    PrintMessage("sbatch: {}\n", std::strerror(errno));
     return kNotStarted;
   });
   std::vector<ChildProcesses::End> ended;

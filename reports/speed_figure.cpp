@@ -41,11 +41,12 @@ struct SpeedPoint {
   bool on_front = false;
 };
 
-SpeedPoint PointOf(const Contender& contender, const char* error_metric) {
+// Over the contender's runs of a scene; "": of all scenes.
+SpeedPoint PointOf(const Contender& contender, const std::string& scene, const char* error_metric) {
   std::vector<double> frame_ms, errors;
   for (const RunRecord* run : contender.runs) {
     const auto found = run->frames.find("frame_ms");
-    if (found == run->frames.end()) continue;
+    if (found == run->frames.end() || (!scene.empty() && run->scene != scene)) continue;
     frame_ms.insert(frame_ms.end(), found->second.begin(), found->second.end());
     errors.push_back(MetricValue(*run, error_metric));
   }
@@ -53,11 +54,12 @@ SpeedPoint PointOf(const Contender& contender, const char* error_metric) {
   return {contender.name, Quantile(frame_ms, 0.5), Quantile(frame_ms, 0.95), Mean(errors)};
 }
 
-std::vector<SpeedPoint> PointsOf(const ReportedExperiment& experiment, const char* error_metric) {
+std::vector<SpeedPoint> PointsOf(const ReportedExperiment& experiment, const std::string& scene,
+                                 const char* error_metric) {
   std::vector<SpeedPoint> points;
   std::vector<Costs> costs;
   for (const Contender& contender : ContendersOf(experiment)) {
-    const SpeedPoint point = PointOf(contender, error_metric);
+    const SpeedPoint point = PointOf(contender, scene, error_metric);
     if (std::isnan(point.median_ms) || std::isnan(point.error)) continue;
     points.push_back(point);
     costs.push_back({point.median_ms, point.error});
@@ -118,6 +120,41 @@ std::string CalibrationText(const ReportedExperiment& experiment) {
       Quantile(ms, 0.5));
 }
 
+// The scenes that have a panel each, for times of different cameras and bodies do not mix; or, of
+// one scene or of many, a single panel for all: "".
+std::vector<std::string> PanelScenes(const ReportedExperiment& experiment) {
+  constexpr std::size_t kMostPanels = 4;
+  std::vector<std::string> scenes;
+  for (const RunRecord* run : experiment.finished()) {
+    const bool is_new = std::find(scenes.begin(), scenes.end(), run->scene) == scenes.end();
+    if (is_new) scenes.push_back(run->scene);
+  }
+  return scenes.size() > 1 && scenes.size() <= kMostPanels ? scenes : std::vector<std::string>{""};
+}
+
+Panel SpeedPanel(const ReportedExperiment& experiment, const std::string& scene,
+                 const char* error_metric) {
+  Panel panel{scene,
+              "time per frame, median and 95th percentile (ms)",
+              error_metric == kSurfaceMetric ? "mean L2 error / diagonal" : "mean joint error (m)",
+              {},
+              PublishedReferences(experiment.record, error_metric),
+              PublishedReferences(experiment.record, "frame_ms_median")};
+  const std::vector<SpeedPoint> points = PointsOf(experiment, scene, error_metric);
+  std::vector<double> times_ms, errors;
+  for (const SpeedPoint& point : points) {
+    times_ms.insert(times_ms.end(), {point.median_ms, point.p95_ms});
+    errors.push_back(point.error);
+  }
+  panel.x_scale = ScaleFor(times_ms);
+  panel.y_scale = ScaleFor(errors);
+  const Series front = FrontLine(points);
+  if (front.x.size() > 1) panel.series.push_back(front);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    panel.series.push_back(Drawn(points[i], i, points.size() > kRunColors.size()));
+  return panel;
+}
+
 }  // namespace
 
 std::vector<Reference> PublishedReferences(const ExperimentRecord& experiment,
@@ -136,35 +173,21 @@ std::vector<Reference> PublishedReferences(const ExperimentRecord& experiment,
 
 Figure MakeSpeedFigure(const ReportedExperiment& experiment) {
   const char* error_metric = ErrorMetricOf(experiment);
+  const std::vector<std::string> scenes = PanelScenes(experiment);
   Figure figure;
   figure.name = kSpeedFigure;
   figure.title = "Speed against error";
   figure.caption =
-      "One point for each variant, over all its scenes and seeds: the median time per frame, with "
-      "a "
-      "bar to the 95th percentile, and the mean error over all frames, failed ones included. Down "
-      "and to the left is better: discs are the variants that no other beats in both, the dashed "
-      "line is what can be had at each price, rings are beaten." +
+      fmt::format(
+          "One point for each variant, over {}: the median time per frame, with a bar to the 95th "
+          "percentile, and the mean error over all frames, failed ones included. Down and to the "
+          "left is better: discs are the variants that no other beats in both, the dashed line is "
+          "what can be had at each price, rings are beaten.",
+          scenes.size() > 1 ? "the seeds of a scene" : "all its scenes and seeds") +
       CalibrationText(experiment);
-  Panel panel{"",
-              "time per frame, median and 95th percentile (ms)",
-              error_metric == kSurfaceMetric ? "mean L2 error / diagonal" : "mean joint error (m)",
-              {},
-              PublishedReferences(experiment.record, error_metric),
-              PublishedReferences(experiment.record, "frame_ms_median")};
-  const std::vector<SpeedPoint> points = PointsOf(experiment, error_metric);
-  std::vector<double> times_ms, errors;
-  for (const SpeedPoint& point : points) {
-    times_ms.insert(times_ms.end(), {point.median_ms, point.p95_ms});
-    errors.push_back(point.error);
+  for (const std::string& scene : scenes) {
+    figure.panels.push_back(SpeedPanel(experiment, scene, error_metric));
   }
-  panel.x_scale = ScaleFor(times_ms);
-  panel.y_scale = ScaleFor(errors);
-  const Series front = FrontLine(points);
-  if (front.x.size() > 1) panel.series.push_back(front);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    panel.series.push_back(Drawn(points[i], i, points.size() > kRunColors.size()));
-  figure.panels = {std::move(panel)};
   return figure;
 }
 

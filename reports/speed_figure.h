@@ -6,9 +6,10 @@
 
 namespace vitruvia {
 
-// One point for each variant that has runs with frames, over all its runs: the median time of a
-// frame with a bar to the 95th percentile, and the mean error. The front is marked: variants that
-// no other beats in both are discs on a dashed line, the others rings.
+// One point for each variant that has runs with frames: the median time of a frame with a bar to
+// the 95th percentile, and the mean error. A panel for each of two to four scenes, else one over
+// all scenes. The front is marked: variants that no other beats in both are discs on a dashed line,
+// the others rings.
 Figure MakeSpeedFigure(const ReportedExperiment& experiment);
 
 // What the papers say of a metric, as lines across a plot.

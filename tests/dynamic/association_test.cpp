@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "dynamic_fixtures.h"
@@ -77,6 +78,24 @@ int BruteForce(const Cloudy& c, const Vector3f& point, int pixel, const Associat
   return best;
 }
 
+void Search(const Cloudy& c, const AssociationLimits& limits, WorkerTeam& team,
+            Association& association) {
+  for (std::size_t patch = 0; patch < c.surface.layout.patches.size(); ++patch) {
+    association.ProjectPatch(static_cast<int>(patch), c.surface, limits);
+  }
+  association.FillBuckets(c.surface, team);
+  association.FindNearest(c.cloud, limits, team);
+}
+
+void ExpectBruteForce(const Cloudy& c, const AssociationLimits& limits,
+                      const Association& association, const std::string& where) {
+  ASSERT_EQ(association.nearest().size(), c.cloud.points.size());
+  for (std::size_t i = 0; i < c.cloud.points.size(); ++i) {
+    ASSERT_EQ(association.nearest()[i], BruteForce(c, c.cloud.points[i], c.cloud.pixels[i], limits))
+        << "point " << i << " " << where;
+  }
+}
+
 TEST(Association, FindsWhatBruteForceFinds) {
   WorkerTeam team(2);
   for (const int count : {0, 1, 60, 3000}) {
@@ -85,19 +104,32 @@ TEST(Association, FindsWhatBruteForceFinds) {
         const Cloudy c(static_cast<std::uint64_t>(count + window), count);
         const AssociationLimits limits{window, cutoff, 0.2f};
         Association association(kCamera, c.surface.layout);
-        for (const Patch& patch : c.surface.layout.patches) {
-          association.ProjectPatch(patch, c.surface, limits);
-        }
-        association.FillBuckets(c.surface, team);
-        association.FindNearest(c.cloud, limits, team);
-        for (std::size_t i = 0; i < c.cloud.points.size(); ++i) {
-          ASSERT_EQ(association.nearest()[i],
-                    BruteForce(c, c.cloud.points[i], c.cloud.pixels[i], limits))
-              << "point " << i << " of " << count << " vertices, window " << window << ", cutoff "
-              << cutoff;
-        }
+        Search(c, limits, team, association);
+        ExpectBruteForce(
+            c, limits, association,
+            fmt::format("of {} vertices, window {}, cutoff {}", count, window, cutoff));
       }
     }
+  }
+}
+
+TEST(Association, ForgetsWhatItFoundBefore) {
+  WorkerTeam team(2);
+  Cloudy c(3, 3000);
+  Association association(kCamera, c.surface.layout);
+  const Vector3f step(0.03f, -0.02f, 0.04f);
+  // Vertices move, turn away and fall out of window and cutoff; points come and go.
+  const AssociationLimits limits[] = {
+      {100, 5.0f, 0.2f}, {12, 0.1f, 0.2f}, {3, 0.1f, 0.7f}, {100, 0.3f, 0.0f}, {12, 0.02f, 0.2f}};
+  for (std::size_t search = 0; search < std::size(limits); ++search) {
+    Search(c, limits[search], team, association);
+    ExpectBruteForce(c, limits[search], association, fmt::format("in search {}", search));
+    for (int slot = 0; slot < c.surface.layout.slot_count(); ++slot) {
+      c.surface.posed.Set(slot, c.surface.posed.At(slot) + step);
+    }
+    const std::size_t points = c.cloud.points.size() * (search % 2 == 0 ? 2 : 4) / 3;
+    c.cloud.points.resize(points, c.cloud.points.front());
+    c.cloud.pixels.resize(points, c.cloud.pixels.front());
   }
 }
 
@@ -105,14 +137,11 @@ TEST(Association, AveragesThePointsThatChoseAVertex) {
   const Cloudy c(9, 50);
   const AssociationLimits limits{100, 5.0f, 0.2f};
   Association association(kCamera, c.surface.layout);
-  for (const Patch& patch : c.surface.layout.patches) {
-    association.ProjectPatch(patch, c.surface, limits);
-  }
   WorkerTeam team(1);
-  association.FillBuckets(c.surface, team);
-  association.FindNearest(c.cloud, limits, team);
+  Search(c, limits, team, association);
   Observations<float> observations;
-  association.Observe(c.cloud, observations);
+  observations.Reset(c.surface.layout.slot_count());
+  association.Observe(c.cloud, team, observations);
   int chosen = 0;
   for (int slot = 0; slot < c.surface.layout.slot_count(); ++slot) {
     Vector3d sum = Vector3d::Zero();
@@ -139,7 +168,7 @@ TEST(Association, LeavesOutWhatIsNotBeforeTheCamera) {
   surface.posed.Set(2, {9.0f, 0.0f, 1.0f});   // out of view
   surface.posed.Set(3, {0.0f, 0.0f, 0.0f});   // no direction at all
   Association association(kCamera, surface.layout);
-  association.ProjectPatch(surface.layout.patches[0], surface, {});
+  association.ProjectPatch(0, surface, {});
   EXPECT_EQ(association.pixels()[0], 25 * kCamera.width + 30);
   for (int slot = 1; slot < surface.layout.slot_count(); ++slot) {
     EXPECT_EQ(association.pixels()[slot], -1) << slot;

@@ -200,6 +200,28 @@ TEST(MakeSpeedFigure, MarksTheFront) {
   EXPECT_THAT(figure.caption, HasSubstr("The calibration kernel took 10.00 ms"));
 }
 
+TEST(MakeSpeedFigure, KeepsAFewScenesApart) {
+  ReportedExperiment experiment;
+  const auto add = [&](const char* scene, double ms) {
+    for (const char* variant : {"fast", "good"}) {
+      RunRecord run = MakeRun(variant, scene, 1, 0.01);
+      run.frames = {{"frame_ms", {variant == std::string("fast") ? ms : 2.0 * ms}}};
+      Add(experiment, run);
+    }
+  };
+  add("small", 2.0);
+  EXPECT_EQ(MakeSpeedFigure(experiment).panels.size(), 1u);
+  add("large", 50.0);
+  const Figure figure = MakeSpeedFigure(experiment);
+  ASSERT_EQ(figure.panels.size(), 2u);
+  EXPECT_EQ(figure.panels[0].title, "small");
+  EXPECT_EQ(figure.panels[1].title, "large");
+  EXPECT_EQ(figure.panels[0].series[1].x[0], 4.0);
+  EXPECT_EQ(figure.panels[1].series[1].x[0], 100.0);
+  for (const char* scene : {"a", "b", "c"}) add(scene, 10.0);
+  EXPECT_EQ(MakeSpeedFigure(experiment).panels.size(), 1u);  // over all five
+}
+
 TEST(TabulateVariants, GivesMeansOverAllRunsAndDifferencesToTheFirst) {
   const VariantTable table = TabulateVariants(NinePairs());
   ASSERT_EQ(table.metrics.size(), 2u);

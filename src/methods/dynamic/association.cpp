@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <utility>
 
 namespace vitruvia::dynamic {
 namespace {
@@ -10,6 +12,23 @@ namespace {
 constexpr float kNearest_m = 0.05f;    // vertices nearer to the camera are not projected
 constexpr float kRounding_px = 1e-2f;  // the search goes that much farther than exact numbers ask
 constexpr int kPointsPerRange = 512;
+constexpr int kParts = 2;  // of buckets and sums, each filled without waiting for the other
+
+// The smallest of eight lanes.
+template <class Eight>
+auto Smallest(const Eight& v) {
+  const auto least = [](const Eight& a, const Eight& b) { return a < b ? a : b; };
+  const Eight four = least(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3));
+  const Eight two = least(four, __builtin_shufflevector(four, four, 2, 3, 0, 1, 6, 7, 4, 5));
+  return least(two, __builtin_shufflevector(two, two, 1, 0, 3, 2, 5, 4, 7, 6))[0];
+}
+
+template <class Eight, class Scalar>
+Eight EightFrom(const std::vector<Scalar>& column, int first) {
+  Eight eight;
+  std::memcpy(&eight, &column[first], sizeof eight);
+  return eight;
+}
 
 void FillRays(double focal_px, double center_px, int window_px, std::vector<float>& rays) {
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -24,92 +43,104 @@ Association::Association(const PinholeCamera& camera, const SurfaceLayout& layou
     : camera_(camera),
       layout_(&layout),
       pixels_(layout.slot_count(), -1),
+      facing_(layout.slot_count()),
+      views_(layout.patches.size()),
       bucket_begin_(static_cast<std::size_t>(camera.width) * camera.height + 1, 0),
       column_ray_(camera.width),
       row_ray_(camera.height) {
-  facing_.reserve(pixels_.size());
   sorted_.Resize(layout.slot_count() + kLanes);
   sorted_slots_.resize(layout.slot_count() + kLanes);
   nearest_.reserve(static_cast<std::size_t>(camera.width) * camera.height);
 }
 
-// One plain loop over numbers side by side: the compiler makes eight lanes of it.
-void Association::ProjectPatch(const Patch& patch, const Surface<float>& surface,
+void Association::ProjectPatch(int patch, const Surface<float>& surface,
                                const AssociationLimits& limits) {
-  const auto fx = static_cast<float>(camera_.fx), fy = static_cast<float>(camera_.fy);
-  const auto cx = static_cast<float>(camera_.cx), cy = static_cast<float>(camera_.cy);
+  const auto [fx, fy] = std::pair(static_cast<float>(camera_.fx), static_cast<float>(camera_.fy));
+  const auto [cx, cy] = std::pair(static_cast<float>(camera_.cx), static_cast<float>(camera_.cy));
   const auto width = static_cast<float>(camera_.width), height = static_cast<float>(camera_.height);
   const float cosine_squared = limits.facing_cosine * limits.facing_cosine;
-  const int columns = camera_.width;
-  const float *x = surface.posed.x.data(), *y = surface.posed.y.data(), *z = surface.posed.z.data();
-  const float *nx = surface.normals.x.data(), *ny = surface.normals.y.data(),
-              *nz = surface.normals.z.data();
-  int* pixels = pixels_.data();
-  for (int i = patch.begin; i < patch.end; ++i) {
-    const float inverse_z = 1.0f / z[i];
-    const float u = fx * x[i] * inverse_z + cx + 0.5f, v = fy * y[i] * inverse_z + cy + 0.5f;
-    const float towards = -(nx[i] * x[i] + ny[i] * y[i] + nz[i] * z[i]);
-    const float square = x[i] * x[i] + y[i] * y[i] + z[i] * z[i];
+  const auto& [influences, bones, begin, end] = layout_->patches[patch];
+  Ints lowest = Ints{} + std::numeric_limits<int>::max(), highest = Ints{} - 1;
+  for (int slot = begin; slot < end; slot += kLanes) {
+    const auto x = EightFrom<Floats>(surface.posed.x, slot),
+               y = EightFrom<Floats>(surface.posed.y, slot),
+               z = EightFrom<Floats>(surface.posed.z, slot);
+    const auto nx = EightFrom<Floats>(surface.normals.x, slot),
+               ny = EightFrom<Floats>(surface.normals.y, slot),
+               nz = EightFrom<Floats>(surface.normals.z, slot);
+    const Floats inverse_z = 1.0f / z;
+    const Floats u = fx * x * inverse_z + cx + 0.5f, v = fy * y * inverse_z + cy + 0.5f;
+    const Floats towards = -(nx * x + ny * y + nz * z);
+    const Floats square = x * x + y * y + z * z;
     // A slot that was filled up has a normal of zero, so it faces nothing.
-    const bool usable = (z[i] > kNearest_m) & (towards > 0.0f) &
+    const Ints usable = (z > kNearest_m) & (towards > 0.0f) &
                         (towards * towards > cosine_squared * square) & (u >= 0.0f) & (v >= 0.0f) &
                         (u < width) & (v < height);
     // What is not usable may be too large for an integer.
-    const int column = static_cast<int>(usable ? u : 0.0f);
-    const int row = static_cast<int>(usable ? v : 0.0f);
-    pixels[i] = usable ? row * columns + column : -1;
+    const Ints column = __builtin_convertvector(usable ? u : Floats{}, Ints);
+    const Ints row = __builtin_convertvector(usable ? v : Floats{}, Ints);
+    const Ints pixel = usable ? row * camera_.width + column : Ints{} - 1;
+    std::memcpy(&pixels_[slot], &pixel, sizeof pixel);
+    const Ints candidate = usable ? pixel : lowest;
+    lowest = candidate < lowest ? candidate : lowest;
+    highest = pixel > highest ? pixel : highest;
   }
+  // Without a branch that could be foreseen wrongly.
+  int count = 0;
+  for (int slot = begin; slot < end; ++slot) {
+    facing_[begin + count] = slot;
+    count += pixels_[slot] >= 0 ? 1 : 0;
+  }
+  views_[patch] = {count, Smallest(lowest), -Smallest(-highest)};
 }
 
-// Without a branch that could be foreseen wrongly.
-void Association::FindFacing() {
-  int lowest = static_cast<int>(bucket_begin_.size()), highest = -1, count = 0;
-  facing_.resize(pixels_.size());
-  for (int slot = 0; slot < static_cast<int>(pixels_.size()); ++slot) {
-    const int pixel = pixels_[slot];
-    const bool faces = pixel >= 0;
-    facing_[count] = slot;
-    count += faces ? 1 : 0;
-    lowest = std::min(lowest, faces ? pixel : lowest);
-    highest = std::max(highest, pixel);
-  }
-  facing_.resize(count);
-  first_row_ = lowest / camera_.width;
-  last_row_ = highest < 0 ? -1 : highest / camera_.width;
-}
-
-// A counting sort: sizes, ends, then the entries from the back, which turns ends into begins.
-void Association::SortIntoBuckets(const Surface<float>& surface, int begin, int end) {
-  const auto mine = [&](int slot) { return pixels_[slot] >= begin && pixels_[slot] < end; };
+// A counting sort of the slots whose pixels are begin … end: sizes, ends, then the entries, which
+// turn ends into begins.
+void Association::SortIntoBuckets(const Surface<float>& surface, int begin, int end, int facing) {
+  const auto for_each_of_mine = [&](auto&& body) {
+    for (std::size_t patch = 0; patch < views_.size(); ++patch) {
+      const auto& [count, lowest, highest] = views_[patch];
+      if (count == 0 || highest < begin || lowest >= end) continue;
+      const int first = layout_->patches[patch].begin;
+      for (int i = first; i < first + count; ++i) {
+        const int pixel = pixels_[facing_[i]];
+        if (pixel >= begin && pixel < end) body(facing_[i], pixel);
+      }
+    }
+  };
   std::fill(bucket_begin_.begin() + begin, bucket_begin_.begin() + end, 0);
   int entries = 0;
-  for (const int slot : facing_) {
-    if (!mine(slot)) continue;
-    ++bucket_begin_[pixels_[slot]];
+  for_each_of_mine([&](int, int pixel) {
+    ++bucket_begin_[pixel];
     ++entries;
-  }
+  });
   // The first pixels' entries come first; those of the last end with the last entry.
-  int sum = begin == first_row_ * camera_.width ? 0 : static_cast<int>(facing_.size()) - entries;
+  int sum = begin == first_row_ * camera_.width ? 0 : facing - entries;
   for (int pixel = begin; pixel < end; ++pixel) bucket_begin_[pixel] = sum += bucket_begin_[pixel];
-  for (auto slot = facing_.rbegin(); slot != facing_.rend(); ++slot) {
-    if (!mine(*slot)) continue;
-    const int at = --bucket_begin_[pixels_[*slot]];
-    sorted_.Set(at, surface.posed.At(*slot));
-    sorted_slots_[at] = *slot;
-  }
+  for_each_of_mine([&](int slot, int pixel) {
+    const int at = --bucket_begin_[pixel];
+    sorted_.Set(at, surface.posed.At(slot));
+    sorted_slots_[at] = slot;
+  });
 }
 
 void Association::FillBuckets(const Surface<float>& surface, WorkerTeam& team) {
-  FindFacing();
-  if (facing_.empty()) return;
+  int lowest = static_cast<int>(bucket_begin_.size()), highest = -1, facing = 0;
+  for (const PatchView& view : views_) {
+    facing += view.facing;
+    if (view.facing == 0) continue;
+    lowest = std::min(lowest, view.lowest_pixel);
+    highest = std::max(highest, view.highest_pixel);
+  }
+  first_row_ = lowest / camera_.width;
+  last_row_ = highest < 0 ? -1 : highest / camera_.width;
+  if (facing == 0) return;
   const int rows = last_row_ + 1 - first_row_;
-  constexpr int kParts = 2;  // so that none has to wait for another's count
   team.For(kParts, 1, [&](int part, int next) {
     SortIntoBuckets(surface, (first_row_ + rows * part / kParts) * camera_.width,
-                    (first_row_ + rows * next / kParts) * camera_.width);
+                    (first_row_ + rows * next / kParts) * camera_.width, facing);
   });
-  bucket_begin_[static_cast<std::size_t>(last_row_ + 1) * camera_.width] =
-      static_cast<int>(facing_.size());
+  bucket_begin_[static_cast<std::size_t>(last_row_ + 1) * camera_.width] = facing;
 }
 
 void Association::FindLongestRays(int window_px) {
@@ -127,13 +158,10 @@ inline void Association::ScanRow(const Vector3f& point, int row, int first_colum
   const int end = bucket_begin_[at + std::min(last_column, camera_.width - 1) + 1];
   constexpr Ints kLaneIndex = {0, 1, 2, 3, 4, 5, 6, 7};
   for (int first = begin; first < end; first += kLanes) {
-    Floats x, y, z;
-    Ints slots;
-    std::memcpy(&x, &sorted_.x[first], sizeof x);
-    std::memcpy(&y, &sorted_.y[first], sizeof y);
-    std::memcpy(&z, &sorted_.z[first], sizeof z);
-    std::memcpy(&slots, &sorted_slots_[first], sizeof slots);
-    const Floats dx = x - point.x(), dy = y - point.y(), dz = z - point.z();
+    const Floats dx = EightFrom<Floats>(sorted_.x, first) - point.x();
+    const Floats dy = EightFrom<Floats>(sorted_.y, first) - point.y();
+    const Floats dz = EightFrom<Floats>(sorted_.z, first) - point.z();
+    const auto slots = EightFrom<Ints>(sorted_slots_, first);
     const Floats squared = dx * dx + dy * dy + dz * dz;
     const Ints better =
         (kLaneIndex < end - first) &
@@ -153,10 +181,9 @@ int Association::NearestTo(const Vector3f& point, int pixel,
   best.squared = Floats{} + limits.cutoff_m * limits.cutoff_m;
   best.slot = Ints{} - 1;  // a vertex exactly at the cutoff is not taken
   const auto radius = [&] {
-    float squared = best.squared[0];
-    for (int i = 1; i < kLanes; ++i) squared = std::min(squared, best.squared[i]);
-    return static_cast<int>(std::min(static_cast<float>(limits.window_px),
-                                     std::sqrt(squared) * px_per_m + 0.5f + kRounding_px));
+    const float nearest = std::sqrt(Smallest(best.squared));
+    return static_cast<int>(
+        std::min(static_cast<float>(limits.window_px), nearest * px_per_m + 0.5f + kRounding_px));
   };
   // Most points end among the eight pixels round their own.
   const int first = std::min(1, limits.window_px);
@@ -169,13 +196,9 @@ int Association::NearestTo(const Vector3f& point, int pixel,
     if (m > 0) ScanRow(point, row + m, column - reach, column + reach, best);
     reach = radius();
   }
-  int lane = 0;  // lanes that found nothing hold the cutoff
-  for (int i = 1; i < kLanes; ++i) {
-    const bool nearer = best.squared[i] < best.squared[lane];
-    const bool as_near = best.squared[i] == best.squared[lane];
-    if (nearer || (as_near && best.slot[i] >= 0 && best.slot[i] < best.slot[lane])) lane = i;
-  }
-  return best.slot[lane];
+  // Lanes that found nothing hold the cutoff and −1.
+  const float squared = Smallest(best.squared);
+  return Smallest(best.squared == squared ? best.slot : Ints{} + std::numeric_limits<int>::max());
 }
 
 void Association::FindNearest(const PointCloud& cloud, const AssociationLimits& limits,
@@ -189,11 +212,16 @@ void Association::FindNearest(const PointCloud& cloud, const AssociationLimits& 
   });
 }
 
-void Association::Observe(const PointCloud& cloud, Observations<float>& observations) const {
-  observations.Reset(layout_->slot_count());
-  for (std::size_t i = 0; i < nearest_.size(); ++i) {
-    if (nearest_[i] >= 0) observations.Add(nearest_[i], cloud.points[i]);
-  }
+void Association::Observe(const PointCloud& cloud, WorkerTeam& team,
+                          Observations<float>& observations) const {
+  team.For(kParts, 1, [&](int part, int next) {
+    const int begin = layout_->slot_count() * part / kParts;
+    const int end = layout_->slot_count() * next / kParts;
+    for (std::size_t i = 0; i < nearest_.size(); ++i) {
+      const int slot = nearest_[i];
+      if (slot >= begin && slot < end) observations.Add(slot, cloud.points[i]);
+    }
+  });
 }
 
 }  // namespace vitruvia::dynamic

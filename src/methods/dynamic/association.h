@@ -2,6 +2,7 @@
 // vertex in the pixels round its own.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/worker_team.h"
@@ -23,6 +24,10 @@ struct Observations {
   std::vector<Scalar> sums;  // x, y, z, count of each slot
 
   void Reset(int slots) { sums.assign(4 * static_cast<std::size_t>(slots), Scalar(0)); }
+  void Clear(int begin_slot, int end_slot) {
+    std::fill(sums.begin() + 4 * std::ptrdiff_t{begin_slot},
+              sums.begin() + 4 * std::ptrdiff_t{end_slot}, Scalar(0));
+  }
   Scalar Count(int slot) const { return sums[4 * static_cast<std::size_t>(slot) + 3]; }
   Vector3<Scalar> Mean(int slot) const {  // p̄; only where Count is not 0
     const Scalar* s = &sums[4 * static_cast<std::size_t>(slot)];
@@ -43,17 +48,16 @@ class Association {
 
   // The pixel of each slot of a patch, −1 for one that does not face the camera or lies outside the
   // image. After PosePatch.
-  void ProjectPatch(const Patch& patch, const Surface<float>& surface,
-                    const AssociationLimits& limits);
-  // Sorts the projected vertices into buckets, one for each pixel.
+  void ProjectPatch(int patch, const Surface<float>& surface, const AssociationLimits& limits);
+  // Sorts the vertices of all patches, once they are projected, into buckets, one for each pixel.
   void FillBuckets(const Surface<float>& surface, WorkerTeam& team);
   // For each point of the cloud the closest vertex among the buckets of its window, nearer than the
   // cutoff; of equally close ones the one of the lowest slot; −1 if there is none. The search
   // begins at the point's pixel and ends where the width of a pixel alone makes vertices farther
   // than the best so far: exact.
   void FindNearest(const PointCloud& cloud, const AssociationLimits& limits, WorkerTeam& team);
-  // Sums up the points that chose a vertex, in the cloud's order.
-  void Observe(const PointCloud& cloud, Observations<float>& observations) const;
+  // Adds the points to the vertices that they chose, in the cloud's order.
+  void Observe(const PointCloud& cloud, WorkerTeam& team, Observations<float>& observations) const;
 
   const std::vector<int>& pixels() const { return pixels_; }    // per slot
   const std::vector<int>& nearest() const { return nearest_; }  // per point: a slot or −1
@@ -68,10 +72,11 @@ class Association {
     Floats squared;
     Ints slot;
   };
-  void FindFacing();
-  // Of the facing slots those with a pixel in begin … end: either the first or the last ones of
-  // all.
-  void SortIntoBuckets(const Surface<float>& surface, int begin, int end);
+  // What the camera sees of a patch: how many slots have a pixel, and between which.
+  struct PatchView {
+    int facing = 0, lowest_pixel = 0, highest_pixel = 0;
+  };
+  void SortIntoBuckets(const Surface<float>& surface, int begin, int end, int facing);
   void FindLongestRays(int window_px);
   int NearestTo(const Vector3f& point, int pixel, const AssociationLimits& limits) const;
   void ScanRow(const Vector3f& point, int row, int first_column, int last_column, Best& best) const;
@@ -79,9 +84,10 @@ class Association {
   PinholeCamera camera_;
   const SurfaceLayout* layout_;
   std::vector<int> pixels_;
+  std::vector<int> facing_;  // the slots that have a pixel, from each patch's begin on
+  std::vector<PatchView> views_;
   std::vector<int> bucket_begin_;  // per pixel, and one more
   int first_row_ = 0, last_row_ = -1;
-  std::vector<int> facing_;  // slots that have a pixel
   // The facing slots sorted by pixel: their positions and numbers, and kLanes more that are never
   // taken.
   Columns<float> sorted_;

@@ -31,11 +31,13 @@ struct LaneVector {
 };
 
 template <class Scalar>
-Lanes<Scalar> Dot(const LaneVector<Scalar>& a, const LaneVector<Scalar>& b) {
+[[gnu::always_inline]] inline Lanes<Scalar> Dot(const LaneVector<Scalar>& a,
+                                                const LaneVector<Scalar>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 template <class Scalar>
-LaneVector<Scalar> Cross(const LaneVector<Scalar>& a, const LaneVector<Scalar>& b) {
+[[gnu::always_inline]] inline LaneVector<Scalar> Cross(const LaneVector<Scalar>& a,
+                                                       const LaneVector<Scalar>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
@@ -85,7 +87,7 @@ struct LaneBlend {
   }
 
   // R v = v + 2/n² u × (u × v + a v).
-  LaneVector<Scalar> Rotated(const LaneVector<Scalar>& v) const {
+  [[gnu::always_inline]] LaneVector<Scalar> Rotated(const LaneVector<Scalar>& v) const {
     LaneVector<Scalar> inner = Cross(u, v);
     inner.x += a * v.x;
     inner.y += a * v.y;
@@ -96,7 +98,7 @@ struct LaneBlend {
   }
 
   // t = 2/n² vec(q_d q_r*).
-  LaneVector<Scalar> Translation() const {
+  [[gnu::always_inline]] LaneVector<Scalar> Translation() const {
     const LaneVector<Scalar> cross = Cross(u, d);
     const Lanes<Scalar> scale = Scalar(2) * inverse_square;
     return {scale * (a * d.x - b * u.x + cross.x), scale * (a * d.y - b * u.y + cross.y),

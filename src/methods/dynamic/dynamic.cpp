@@ -1,6 +1,7 @@
 #include "methods/dynamic/dynamic.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -19,6 +20,13 @@ TrackedMesh MeshOf(const Subject& subject, Mode mode) {
 
 AssociationLimits LimitsOf(int window_px, double cutoff_m, double facing_cosine) {
   return {window_px, static_cast<float>(cutoff_m), static_cast<float>(facing_cosine)};
+}
+
+// Wide enough for what moved since the last frame at first, and narrow enough in the end that the
+// points of a hand do not pull at the face behind it.
+double PoseCutoff(const AssociationSettings& settings, int iteration, int iterations) {
+  const double done = iterations > 1 ? iteration / (iterations - 1.0) : 1.0;
+  return settings.cutoff_m * std::pow(settings.last_cutoff_m / settings.cutoff_m, done);
 }
 
 // Where an upright body that faces the camera stands: its crown at the highest point of the cloud,
@@ -113,7 +121,7 @@ struct Dynamic::Session {
   int frames = 0;
   int iterations = 0;
   bool converged = false, solved = true;
-  double matched_share = 0.0;
+  double matched_share = 0.0;  // of its best iteration
   StepTimes times;
 };
 
@@ -153,6 +161,7 @@ void Dynamic::BeginFrame(const DepthFrame& frame) {
   s.iterations = 0;
   s.converged = false;
   s.solved = true;
+  s.matched_share = 0.0;
   const auto max_depth = static_cast<float>(settings_.max_depth_m);
   CloudFromDepth(frame.depth, s.camera, 1, max_depth, s.fine.cloud);
   if (s.coarse) {
@@ -193,13 +202,15 @@ void Dynamic::FitPose(bool first) {
   Session& s = *session_;
   const PoseSettings& settings = settings_.pose;
   const AssociationSettings& a = settings_.association;
-  const AssociationLimits limits = LimitsOf(a.window_px, a.cutoff_m, a.facing_cosine);
   const int limit = first ? settings.first_frame_iterations : settings.iterations;
   Level& level = s.pose_level();
   if (!first) Predict();
   while (s.iterations < limit && !s.converged && s.solved) {
+    const AssociationLimits limits =
+        LimitsOf(a.window_px, PoseCutoff(a, s.iterations, limit), a.facing_cosine);
     s.tree.Pose(s.camera_from_start, s.theta, s.pose);
     level.Match(s.pose, limits, s.team, s.times);
+    s.matched_share = std::max(s.matched_share, level.MatchedShare());
     level.Assemble(s.tree, s.pose, s.team, s.equations, s.times);
     const StepSize step = s.solver.Step(
         s.tree, s.equations, s.all_joints,
@@ -214,7 +225,6 @@ void Dynamic::FitPose(bool first) {
   for (int k = 0; k < s.tree.joint_count(); ++k) {  // what is held does not go on by prediction
     if (s.iterations > 0 && s.solver.IsHeld(k)) s.theta[k] = s.theta_before[k];
   }
-  s.matched_share = level.MatchedShare();
   if (!first && IsLost()) s.theta = s.theta_before;  // the few points left would carry it away
   s.tree.Pose(s.camera_from_start, s.theta, s.pose);
 }

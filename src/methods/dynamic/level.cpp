@@ -23,13 +23,14 @@ void Level::Match(const TreePose& pose, const AssociationLimits& limits, WorkerT
   team.For(static_cast<int>(patches.size()), kPatchesPerRange, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       PosePatch(patches[i], motions, surface);
-      association.ProjectPatch(patches[i], surface, limits);
+      association.ProjectPatch(i, surface, limits);
+      observations.Clear(patches[i].begin, patches[i].end);
     }
   });
   times.Lap(kSkin);
   association.FillBuckets(surface, team);
   association.FindNearest(cloud, limits, team);
-  association.Observe(cloud, observations);
+  association.Observe(cloud, team, observations);
   times.Lap(kAssociate);
 }
 

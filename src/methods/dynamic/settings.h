@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "core/settings.h"
 
@@ -18,10 +19,12 @@ enum class Mode {
 struct AssociationSettings {
   int window_px = 32;
   double cutoff_m = 0.12;
+  double last_cutoff_m = 0.02;
   double facing_cosine = 0.1;
   int pose_pixel_stride = 1;
   int pose_vertex_stride = 1;
   void Describe(Fields& fields);
+  std::string Problem() const;
 };
 
 struct PoseSettings {
