@@ -96,6 +96,43 @@ TEST(Dynamic, FewPointsAmongManyOthersDoNotCarryTheBodyAway) {
   EXPECT_LT(stage.MeanError(after, 0.0), 0.01);
 }
 
+// How far the head's joint is carried off by a plate, some fingers wide, before a quarter of
+// the face, metres.
+double HeadCarriedBy(const Settings& settings) {
+  Stage stage;
+  Dynamic tracker(settings, HumanSkeleton());
+  tracker.Start(stage.body, stage.camera);
+  TrackResult result = tracker.TrackFrame(stage.Frame(0, 0.0));
+  const int head = static_cast<int>(BoneId::kHead);
+  const Vector3d before = result.camera_from_rest[head] * stage.body.skeleton.tips[head];
+  const auto at = stage.camera.Project(before).eval();
+  for (int i = 1; i <= 10; ++i) {
+    DepthFrame frame = stage.Frame(i, 0.0);
+    for (int v = 0; v < 8; ++v) {
+      for (int u = 0; u < 8; ++u) {
+        const int column = static_cast<int>(at.x()) + u, row = static_cast<int>(at.y()) + v;
+        frame.depth(column, row) = static_cast<float>(before.z()) - 0.18f;
+      }
+    }
+    result = tracker.TrackFrame(frame);
+    EXPECT_FALSE(IsFailure(result.outcome)) << result.message;
+  }
+  return (result.camera_from_rest[head] * stage.body.skeleton.tips[head] - before).norm();
+}
+
+TEST(Dynamic, AHandBeforeTheFaceDoesNotCarryTheHeadAway) {
+  Settings settings;
+  EXPECT_LT(HeadCarriedBy(settings), 0.002);
+  settings.association.last_cutoff_m = settings.association.cutoff_m;
+  EXPECT_GT(HeadCarriedBy(settings), 0.03);  // what the narrow cutoff is for
+}
+
+TEST(Dynamic, RefusesACutoffThatRises) {
+  AssociationSettings settings;
+  settings.last_cutoff_m = 2.0 * settings.cutoff_m;
+  EXPECT_THAT(settings.Problem(), testing::HasSubstr("expected at most cutoff_m, 0.12 m"));
+}
+
 TEST(Dynamic, HoldsWhatIsOutOfView) {
   Stage stage;
   Dynamic tracker(Settings{}, HumanSkeleton());
