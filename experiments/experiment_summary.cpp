@@ -53,15 +53,14 @@ int WriteSummary(const fs::path& folder) {
   WriteFailures(folder, runs);
   Json rows = Json::array(), failed = Json::object(), missing = Json::array();
   for (const auto& [run_id, status] : runs) {
-    if (status.state == RunState::kDone) {
-      rows.push_back(ReadRunRecord(folder, run_id).summary);
-    } else if (status.state == RunState::kFailed) {
+    if (status.state == RunState::kFailed) {
       failed[run_id] = status.reason;
-    } else {
+    } else if (status.state != RunState::kDone) {
       missing.push_back(run_id);
     }
   }
   const ReportedExperiment experiment = ReadExperiment(folder);
+  for (const RunRecord* run : experiment.finished()) rows.push_back(run->summary);
   // In this order: what sums up the rows goes before them.
   const nlohmann::ordered_json summary = {{"experiment", experiment.record.name},
                                           {"variants", ToJson(TabulateVariants(experiment))},

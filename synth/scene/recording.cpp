@@ -216,48 +216,88 @@ std::vector<bool> VisibleJoints(const std::vector<Vector3d>& joints_in_camera,
   return visible;
 }
 
+namespace {
+
+// The scene at any time: its body, dressed and posed, and what a camera without noise sees of it.
+class Stage {
+ public:
+  Stage(const SceneSettings& settings, const BodyModel& truth, const Motion& motion)
+      : settings_(settings),
+        motion_(motion),
+        camera_from_subject_(CameraFromSubject(settings.view)),
+        garment_(truth, settings.truth.cloth, static_cast<std::uint64_t>(settings.seed)),
+        dressed_(truth),
+        renderer_(settings.view.camera, kNearM, kFarM) {}
+
+  PosedBody PosedAt(double time_s) {
+    const MotionSample sample = motion_.At(time_s);
+    if (!settings_.truth.cloth.IsBare()) {
+      garment_.Dress(sample.pose, time_s, dressed_.rest.vertices);
+    }
+    return Pose(dressed_, sample, settings_.truth.skinning, camera_from_subject_);
+  }
+
+  DepthImage Rendered(double time_s, const PosedBody& body) {
+    TriangleMesh seen{body.vertices, dressed_.rest.triangles};
+    AddOccluder(settings_.occluder, time_s, camera_from_subject_, seen);
+    return renderer_.Render(seen.vertices, seen.triangles);
+  }
+
+ private:
+  const SceneSettings& settings_;
+  const Motion& motion_;
+  Rigidd camera_from_subject_;
+  Garment garment_;
+  BodyModel dressed_;  // its surface changes from frame to frame
+  DepthRenderer renderer_;
+};
+
+// What the sensor delivers of a frame: perhaps late, with noise, or nothing.
+class Sensor {
+ public:
+  explicit Sensor(const SceneSettings& settings)
+      : settings_(settings),
+        seed_(static_cast<std::uint64_t>(settings.seed)),
+        lost_(LostFrames(settings.sensor.delivery, settings.frames, seed_)) {}
+
+  DepthImage Measured(int frame, double time_s, const DepthImage& true_depth, Stage& stage) const {
+    const PinholeCamera& camera = settings_.view.camera;
+    if (lost_[frame]) return DepthImage(camera.width, camera.height);
+    RandomStream noise(seed_, fmt::format("sensor/{}", frame));
+    const double capture_time_s = CaptureTime(settings_.sensor.delivery, time_s);
+    const DepthImage captured = capture_time_s == time_s
+                                    ? true_depth
+                                    : stage.Rendered(capture_time_s, stage.PosedAt(capture_time_s));
+    return Measure(captured, camera, settings_.sensor, noise);
+  }
+
+ private:
+  const SceneSettings& settings_;
+  std::uint64_t seed_;
+  std::vector<bool> lost_;
+};
+
+}  // namespace
+
 void RecordSequence(const SceneSettings& settings, const BodyModel& truth, const BodyModel& subject,
                     const Motion& motion, const std::filesystem::path& folder) {
   const PinholeCamera& camera = settings.view.camera;
-  const Rigidd camera_from_subject = CameraFromSubject(settings.view);
   SequenceWriter writer(folder, Info(settings, truth, subject), subject, truth.rest);
-  DepthRenderer renderer(camera, kNearM, kFarM);
+  Stage stage(settings, truth, motion);
+  const Sensor sensor(settings);
   ViewWatch watch(camera);
   TemplateMisfit misfit(subject, truth);
-  const auto seed = static_cast<std::uint64_t>(settings.seed);
-  const bool is_dressed = !settings.truth.cloth.IsBare();
-  const Garment garment(truth, settings.truth.cloth, seed);
-  BodyModel dressed = truth;  // its surface changes from frame to frame
-  const std::vector<bool> lost = LostFrames(settings.sensor.delivery, settings.frames, seed);
   {
     Progress progress("synth " + folder.filename().string(), settings.frames);
     for (int frame = 0; frame < settings.frames; ++frame) {
       const double time_s = frame / settings.fps;
-      const auto posed_at = [&](double t) {
-        const MotionSample sample = motion.At(t);
-        if (is_dressed) garment.Dress(sample.pose, t, dressed.rest.vertices);
-        return Pose(dressed, sample, settings.truth.skinning, camera_from_subject);
-      };
-      const auto rendered_at = [&](double t, const PosedBody& body) {
-        TriangleMesh seen{body.vertices, truth.rest.triangles};
-        AddOccluder(settings.occluder, t, camera_from_subject, seen);
-        return renderer.Render(seen.vertices, seen.triangles);
-      };
-      const PosedBody posed = posed_at(time_s);
+      const PosedBody posed = stage.PosedAt(time_s);
       RequireInRange(posed.vertices, frame);
       watch.Look(posed.vertices, frame);
       misfit.Add(posed);
-      const DepthImage true_depth = rendered_at(time_s, posed);
+      const DepthImage true_depth = stage.Rendered(time_s, posed);
       const JointTruth joints{posed.joints, VisibleJoints(posed.joints, true_depth, camera)};
-      RandomStream noise(seed, fmt::format("sensor/{}", frame));
-      const double capture_time_s = CaptureTime(settings.sensor.delivery, time_s);
-      DepthImage measured(camera.width, camera.height);
-      if (!lost[frame]) {
-        const DepthImage captured = capture_time_s == time_s
-                                        ? true_depth
-                                        : rendered_at(capture_time_s, posed_at(capture_time_s));
-        measured = Measure(captured, camera, settings.sensor, noise);
-      }
+      const DepthImage measured = sensor.Measured(frame, time_s, true_depth, stage);
       writer.Append(measured, posed.vertices, joints);
       progress.Advance();
     }
