@@ -24,12 +24,18 @@ constexpr double kMargin = 1.12;            // of a picture over the body in it
 constexpr double kOverlayOpacity = 0.72;    // of the reconstruction over the depth image
 constexpr double kSmallestErrorScale_m = 0.01;
 
+// Of what the camera has in its image: a limb out of view may be anywhere, and would leave no
+// colours for the rest.
 double ErrorScale(const std::vector<std::unique_ptr<PictureSource>>& sources) {
   std::vector<double> all;
   for (const auto& source : sources) {
-    if (source == nullptr) continue;
+    if (source == nullptr || !source->has_truth()) continue;
+    const PinholeCamera& camera = source->sequence().info().camera;
     for (const PictureFrame& frame : source->frames()) {
-      all.insert(all.end(), frame.errors_m.begin(), frame.errors_m.end());
+      const std::vector<Vector3f> vertices = source->estimate().ReadVertices(frame.number);
+      for (std::size_t i = 0; i < vertices.size(); ++i) {
+        if (camera.InView(vertices[i])) all.push_back(frame.errors_m[i]);
+      }
     }
   }
   return ErrorScaleEnd(std::move(all), kSmallestErrorScale_m);

@@ -26,12 +26,8 @@ class ViewWatch {
   explicit ViewWatch(const PinholeCamera& camera) : camera_(camera) {}
 
   void Look(const std::vector<Vector3f>& vertices_in_camera, int frame) {
-    const bool all_in_view =
-        std::all_of(vertices_in_camera.begin(), vertices_in_camera.end(), [this](const auto& p) {
-          const Eigen::Vector2f pixel = camera_.Project(p);
-          return pixel.x() >= -0.5f && pixel.x() <= static_cast<float>(camera_.width) - 0.5f &&
-                 pixel.y() >= -0.5f && pixel.y() <= static_cast<float>(camera_.height) - 0.5f;
-        });
+    const bool all_in_view = std::all_of(vertices_in_camera.begin(), vertices_in_camera.end(),
+                                         [this](const auto& p) { return camera_.InView(p); });
     if (all_in_view) return;
     if (frames_ == 0) first_ = frame;
     ++frames_;
