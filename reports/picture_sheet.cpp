@@ -43,6 +43,17 @@ void DrawColorBar(Canvas& canvas, Point top_left, Color (*color_of)(double),
   canvas.Text({top_left.x, top_left.y - 5.0}, label, {.size = 12.0, .baseline = Baseline::kBottom});
 }
 
+// What plain colours mean, a line each.
+void DrawKeys(Canvas& canvas, Point top_left, const std::vector<ColorKey>& keys) {
+  constexpr double kLine = 20.0;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const double y = top_left.y + static_cast<double>(i) * kLine;
+    canvas.Rectangle({top_left.x, y}, kBarHeight, kBarHeight, keys[i].color);
+    canvas.Text({top_left.x + kBarHeight + 8.0, y + 0.5 * kBarHeight}, keys[i].meaning,
+                {.size = 12.0});
+  }
+}
+
 // Titles in two lines: what is shown, and from where.
 void DrawTitles(Canvas& canvas, const RunPictures& run) {
   const int margin_left = MarginLeft(run);
@@ -83,6 +94,8 @@ void WritePictureSheet(DrawingWriter& writer, const std::filesystem::path& stem,
                     fmt::format("{:.2f}", 0.5 * (run.nearest_m + run.farthest_m)),
                     fmt::format("{:.1f}", run.farthest_m)});
     }
+    // Beside the bar of the depth, which is not two pictures wide.
+    DrawKeys(canvas, {margin_left + 2.0 * (kCell + kCellGap) + 10.0, bar_top - 8.0}, run.keys);
     if (run.error_scale_m == 0.0) return;
     const double error_column = static_cast<double>(run.titles.size()) - 2.0;
     DrawColorBar(canvas, {margin_left + error_column * (kCell + kCellGap) + 10.0, bar_top},
