@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "core/markup.h"
+
 namespace vitruvia {
 namespace {
 
@@ -48,36 +50,12 @@ nlohmann::json FindingToJson(const Finding& finding) {
   return json;
 }
 
-std::string XmlEscaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:  // no control characters in XML but these
-        escaped += static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t' ? c : ' ';
-    }
-  }
-  return escaped;
-}
-
 std::string JunitCase(const std::string& run, const std::string& kind, const char* tag,
                       const std::string& message) {
   const std::string head =
-      fmt::format("  <testcase classname=\"{}\" name=\"{}\"", XmlEscaped(run), XmlEscaped(kind));
+      fmt::format("  <testcase classname=\"{}\" name=\"{}\"", Escaped(run), Escaped(kind));
   if (message.empty()) return head + "/>\n";
-  return fmt::format("{}>\n    <{} message=\"{}\"/>\n  </testcase>\n", head, tag,
-                     XmlEscaped(message));
+  return fmt::format("{}>\n    <{} message=\"{}\"/>\n  </testcase>\n", head, tag, Escaped(message));
 }
 
 std::string RegressionLines(const Judgement& judgement, const std::string& run, NumberKind kind) {
@@ -196,7 +174,7 @@ std::string ToJunit(const GateOccasion& occasion, const Judgement& judgement) {
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"{}\" tests=\"{}\" "
       "failures=\"{}\" errors=\"{}\" timestamp=\"{}\">\n{}</testsuite>\n",
-      XmlEscaped(occasion.name), count, failures, errors, occasion.date, cases);
+      Escaped(occasion.name), count, failures, errors, occasion.date, cases);
 }
 
 std::string ToMarkdown(const GateOccasion& occasion, const Judgement& judgement) {
