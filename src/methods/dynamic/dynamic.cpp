@@ -22,6 +22,12 @@ AssociationLimits LimitsOf(int window_px, double cutoff_m, double facing_cosine)
   return {window_px, static_cast<float>(cutoff_m), static_cast<float>(facing_cosine)};
 }
 
+// The vertices of the pose step; none where it takes all vertices and pixels.
+std::vector<int> CoarseVertices(const TrackedMesh& mesh, const AssociationSettings& settings) {
+  if (settings.pose_vertex_stride == 1 && settings.pose_pixel_stride == 1) return {};
+  return SpreadVertices(mesh, settings.pose_vertex_stride);
+}
+
 // Wide enough for what moved since the last frame at first, and narrow enough in the end that the
 // points of a hand do not pull at the face behind it.
 double PoseCutoff(const AssociationSettings& settings, int iteration, int iterations) {
@@ -66,17 +72,13 @@ struct Dynamic::Session {
         subject_vertices(static_cast<int>(subject.rest.vertices.size())),
         tree(file, subject.skeleton),
         fine(mesh, view),
+        coarse_vertices(CoarseVertices(mesh, settings.association)),
         shape(fine.surface.layout, mesh.vertices, ClosestNeighbors(mesh.vertices, mesh.triangles)),
         normals(fine.surface.layout, mesh.triangles),
-        solver(tree, mesh.weights),
+        solver(tree,
+               coarse_vertices.empty() ? mesh.weights : Subset(mesh, coarse_vertices).weights),
         team(settings.threads) {
-    const auto& a = settings.association;
-    if (a.pose_vertex_stride > 1 || a.pose_pixel_stride > 1) {
-      coarse_vertices = SpreadVertices(mesh, a.pose_vertex_stride);
-      const TrackedMesh subset = Subset(mesh, coarse_vertices);
-      coarse.emplace(subset, view);
-      solver = PoseSolver(tree, subset.weights);
-    }
+    if (!coarse_vertices.empty()) coarse.emplace(Subset(mesh, coarse_vertices), view);
     theta = Eigen::VectorXd::Zero(tree.joint_count());
     all_joints.assign(tree.joint_count(), 1);
     root_joints.assign(tree.joint_count(), 0);
