@@ -16,11 +16,15 @@ PictureSource::PictureSource(const fs::path& experiment_folder, const RunRecord&
   const int count = std::min(sequence_.info().frames, static_cast<int>(estimate_.frames().size()));
   for (const int frame : frames) {
     if (frame < 0 || frame >= count) continue;
-    frames_.push_back({frame, {}});
+    PictureFrame& shown = frames_.emplace_back();
+    shown.number = frame;
     if (!correspondence) continue;
-    frames_.back().errors_m =
-        VertexErrors(estimate_.ReadVertices(frame),
-                     correspondence->TruePositions(sequence_.ReadTrueVertices(frame)));
+    const std::vector<Vector3f> vertices = estimate_.ReadVertices(frame);
+    shown.errors_m =
+        VertexErrors(vertices, correspondence->TruePositions(sequence_.ReadTrueVertices(frame)));
+    for (const Vector3f& vertex : vertices) {
+      shown.in_view.push_back(sequence_.info().camera.InView(vertex));
+    }
   }
 }
 

@@ -15,7 +15,9 @@ namespace vitruvia {
 
 struct PictureFrame {
   int number = 0;
-  std::vector<double> errors_m;  // per vertex of the estimate; none without a true surface
+  // Per vertex of the estimate; none without a true surface.
+  std::vector<double> errors_m;
+  std::vector<bool> in_view;  // whether the camera has it in its image
 };
 
 class PictureSource {

@@ -29,12 +29,10 @@ constexpr double kSmallestErrorScale_m = 0.01;
 double ErrorScale(const std::vector<std::unique_ptr<PictureSource>>& sources) {
   std::vector<double> all;
   for (const auto& source : sources) {
-    if (source == nullptr || !source->has_truth()) continue;
-    const PinholeCamera& camera = source->sequence().info().camera;
+    if (source == nullptr) continue;
     for (const PictureFrame& frame : source->frames()) {
-      const std::vector<Vector3f> vertices = source->estimate().ReadVertices(frame.number);
-      for (std::size_t i = 0; i < vertices.size(); ++i) {
-        if (camera.InView(vertices[i])) all.push_back(frame.errors_m[i]);
+      for (std::size_t i = 0; i < frame.errors_m.size(); ++i) {
+        if (frame.in_view[i]) all.push_back(frame.errors_m[i]);
       }
     }
   }

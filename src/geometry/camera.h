@@ -24,13 +24,13 @@ struct PinholeCamera {
     return {(u - Scalar(cx)) / Scalar(fx) * z, (v - Scalar(cy)) / Scalar(fy) * z, z};
   }
 
-  // Whether a point lies before the camera and its pixel in the image.
+  // Whether a point lies before the camera and its pixel, rounded, in the image.
   template <class Scalar>
   bool InView(const Vector3<Scalar>& point_in_camera) const {
     if (!(point_in_camera.z() > Scalar(0))) return false;
     const auto pixel = Project(point_in_camera);
     const Scalar half(0.5);
-    return pixel.x() >= -half && pixel.y() >= -half && pixel.x() < Scalar(width) - half &&
+    return pixel.x() > -half && pixel.y() > -half && pixel.x() < Scalar(width) - half &&
            pixel.y() < Scalar(height) - half;
   }
 

@@ -41,11 +41,10 @@ std::vector<bool> VisiblePoints(const std::vector<Vector3f>& points,
   std::vector<bool> visible(points.size(), false);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vector3f& point = points[i];
-    if (!(point.z() > 0.0f)) continue;
+    if (!camera.InView(point)) continue;
     const auto pixel = camera.Project(point);
-    const double u = std::round(double{pixel.x()}), v = std::round(double{pixel.y()});
-    if (!(u >= 0.0 && v >= 0.0 && u < camera.width && v < camera.height)) continue;
-    const float front = rendered_truth(static_cast<int>(u), static_cast<int>(v));
+    const float front = rendered_truth(static_cast<int>(std::lround(pixel.x())),
+                                       static_cast<int>(std::lround(pixel.y())));
     visible[i] = front == 0.0f || double{point.z()} <= double{front} + visible_within_m;
   }
   return visible;

@@ -153,67 +153,6 @@ void Warn(const std::string& warning) {
   if (!warning.empty()) PrintMessage("warning: {}\n", warning);
 }
 
-}  // namespace
-
-PosedBody Pose(const BodyModel& body, const MotionSample& sample, Skinning skinning,
-               const Rigidd& camera_from_subject) {
-  const BoneTransforms bones = ForwardKinematics(body.skeleton, sample.pose);
-  PosedBody posed;
-  if (skinning == Skinning::kLinear) {
-    SkinLinear(body.rest.vertices, body.weights, bones, posed.vertices);
-  } else {
-    SkinDualQuaternion(body.rest.vertices, body.weights, bones, posed.vertices);
-  }
-  posed.joints = PosedJoints(body.skeleton, bones);
-
-  double lift = 0.0;
-  if (sample.grounded) {
-    float lowest = std::numeric_limits<float>::infinity();
-    for (const Vector3f& p : posed.vertices) lowest = std::min(lowest, p.y());
-    lift = sample.clearance_m - lowest;
-  }
-  const Rigidd camera_from_posed =
-      camera_from_subject * Rigidd{Matrix3<double>::Identity(), {0.0, lift, 0.0}};
-  for (Vector3f& p : posed.vertices) {
-    p = (camera_from_posed * p.cast<double>().eval()).cast<float>();
-  }
-  for (Vector3d& p : posed.joints) p = camera_from_posed * p;
-  for (const Rigidd& posed_from_rest : bones) {
-    posed.camera_from_rest.push_back(camera_from_posed * posed_from_rest);
-  }
-  return posed;
-}
-
-double JointBelowSkin(int bone) {
-  for (const BoneId trunk : {BoneId::kPelvis, BoneId::kAbdomen, BoneId::kChest}) {
-    if (bone == static_cast<int>(trunk)) return kTrunkJointBelowSkinM;
-  }
-  return kLimbJointBelowSkinM;
-}
-
-bool SeesJoint(const Vector3d& joint_in_camera, double below_skin_m, const DepthImage& depth,
-               const PinholeCamera& camera) {
-  if (joint_in_camera.z() <= 0.0) return false;
-  const Eigen::Vector2d pixel = camera.Project(joint_in_camera);
-  // Rounded as numbers first: far outside the image they do not fit an int.
-  const double u = std::round(pixel.x()), v = std::round(pixel.y());
-  if (!(u >= 0.0 && v >= 0.0 && u < camera.width && v < camera.height)) return false;
-  const float skin = depth(static_cast<int>(u), static_cast<int>(v));
-  return skin == 0.0f || joint_in_camera.z() - skin <= below_skin_m;
-}
-
-std::vector<bool> VisibleJoints(const std::vector<Vector3d>& joints_in_camera,
-                                const DepthImage& depth, const PinholeCamera& camera) {
-  std::vector<bool> visible;
-  for (std::size_t i = 0; i < joints_in_camera.size(); ++i) {
-    visible.push_back(
-        SeesJoint(joints_in_camera[i], JointBelowSkin(static_cast<int>(i)), depth, camera));
-  }
-  return visible;
-}
-
-namespace {
-
 // The scene at any time: its body, dressed and posed, and what a camera without noise sees of it.
 class Stage {
  public:
@@ -274,6 +213,61 @@ class Sensor {
 };
 
 }  // namespace
+
+PosedBody Pose(const BodyModel& body, const MotionSample& sample, Skinning skinning,
+               const Rigidd& camera_from_subject) {
+  const BoneTransforms bones = ForwardKinematics(body.skeleton, sample.pose);
+  PosedBody posed;
+  if (skinning == Skinning::kLinear) {
+    SkinLinear(body.rest.vertices, body.weights, bones, posed.vertices);
+  } else {
+    SkinDualQuaternion(body.rest.vertices, body.weights, bones, posed.vertices);
+  }
+  posed.joints = PosedJoints(body.skeleton, bones);
+
+  double lift = 0.0;
+  if (sample.grounded) {
+    float lowest = std::numeric_limits<float>::infinity();
+    for (const Vector3f& p : posed.vertices) lowest = std::min(lowest, p.y());
+    lift = sample.clearance_m - lowest;
+  }
+  const Rigidd camera_from_posed =
+      camera_from_subject * Rigidd{Matrix3<double>::Identity(), {0.0, lift, 0.0}};
+  for (Vector3f& p : posed.vertices) {
+    p = (camera_from_posed * p.cast<double>().eval()).cast<float>();
+  }
+  for (Vector3d& p : posed.joints) p = camera_from_posed * p;
+  for (const Rigidd& posed_from_rest : bones) {
+    posed.camera_from_rest.push_back(camera_from_posed * posed_from_rest);
+  }
+  return posed;
+}
+
+double JointBelowSkin(int bone) {
+  for (const BoneId trunk : {BoneId::kPelvis, BoneId::kAbdomen, BoneId::kChest}) {
+    if (bone == static_cast<int>(trunk)) return kTrunkJointBelowSkinM;
+  }
+  return kLimbJointBelowSkinM;
+}
+
+bool SeesJoint(const Vector3d& joint_in_camera, double below_skin_m, const DepthImage& depth,
+               const PinholeCamera& camera) {
+  if (!camera.InView(joint_in_camera)) return false;
+  const Eigen::Vector2d pixel = camera.Project(joint_in_camera);
+  const float skin =
+      depth(static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y())));
+  return skin == 0.0f || joint_in_camera.z() - skin <= below_skin_m;
+}
+
+std::vector<bool> VisibleJoints(const std::vector<Vector3d>& joints_in_camera,
+                                const DepthImage& depth, const PinholeCamera& camera) {
+  std::vector<bool> visible;
+  for (std::size_t i = 0; i < joints_in_camera.size(); ++i) {
+    visible.push_back(
+        SeesJoint(joints_in_camera[i], JointBelowSkin(static_cast<int>(i)), depth, camera));
+  }
+  return visible;
+}
 
 void RecordSequence(const SceneSettings& settings, const BodyModel& truth, const BodyModel& subject,
                     const Motion& motion, const std::filesystem::path& folder) {

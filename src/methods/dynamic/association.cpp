@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <utility>
 
 namespace vitruvia::dynamic {
 namespace {
@@ -55,11 +54,11 @@ Association::Association(const PinholeCamera& camera, const SurfaceLayout& layou
 
 void Association::ProjectPatch(int patch, const Surface<float>& surface,
                                const AssociationLimits& limits) {
-  const auto [fx, fy] = std::pair(static_cast<float>(camera_.fx), static_cast<float>(camera_.fy));
-  const auto [cx, cy] = std::pair(static_cast<float>(camera_.cx), static_cast<float>(camera_.cy));
+  const auto fx = static_cast<float>(camera_.fx), fy = static_cast<float>(camera_.fy);
+  const auto cx = static_cast<float>(camera_.cx), cy = static_cast<float>(camera_.cy);
   const auto width = static_cast<float>(camera_.width), height = static_cast<float>(camera_.height);
   const float cosine_squared = limits.facing_cosine * limits.facing_cosine;
-  const auto& [influences, bones, begin, end] = layout_->patches[patch];
+  const int begin = layout_->patches[patch].begin, end = layout_->patches[patch].end;
   Ints lowest = Ints{} + std::numeric_limits<int>::max(), highest = Ints{} - 1;
   for (int slot = begin; slot < end; slot += kLanes) {
     const auto x = EightFrom<Floats>(surface.posed.x, slot),

@@ -1,5 +1,8 @@
 // Dynamic (paper B): a skeleton of dual-quaternion joints and a warp for every vertex, fitted to
 // each depth frame in turn.
+//
+// Departures: a frame begins where the joints would be if they went on as they did; the cutoff of
+// the association falls over its pose iterations; a frame that is lost changes nothing.
 #pragma once
 
 #include <memory>

@@ -15,7 +15,8 @@ void AssociationSettings::Describe(Fields& f) {
              .source = "paper B is silent; holds the cutoff's 0.12 m at 1.4 m and 365 px of focal "
                        "length"});
   f.Number("cutoff_m", cutoff_m,
-           {.meaning = "vertices farther from a point than this are not taken",
+           {.meaning = "vertices farther from a point than this are not taken, in a frame's first "
+                       "iteration",
             .unit = "m",
             .min = 1e-4,
             .max = 10,
@@ -102,13 +103,15 @@ void PoseSettings::Describe(Fields& f) {
             .max = 1,
             .origin = Origin::kGuessed,
             .source = "paper B lets it relax to the default pose, as 0 does"});
-  f.Number("rotation_step_deg", rotation_step_deg,
-           {.meaning = "stop when every hinge turned by less in an iteration; 0: never",
-            .unit = "deg",
-            .min = 0,
-            .max = 180,
-            .origin = Origin::kGuessed,
-            .source = "paper B: a fixed number of iterations"});
+  f.Number(
+      "rotation_step_deg", rotation_step_deg,
+      {.meaning = "stop when every hinge turned by less in an iteration, however wide the cutoff "
+                  "still is; 0: never",
+       .unit = "deg",
+       .min = 0,
+       .max = 180,
+       .origin = Origin::kGuessed,
+       .source = "paper B: a fixed number of iterations"});
   f.Number("translation_step_m", translation_step_m,
            {.meaning = "and every prismatic joint moved by less",
             .unit = "m",
@@ -202,7 +205,7 @@ void Settings::Describe(Fields& f) {
   f.Number(
       "lost_below", lost_below,
       {.meaning = "a frame is lost, and pose and shape are carried over, when less than this share "
-                  "of the points found a vertex",
+                  "of the points found a vertex even in its best iteration",
        .min = 0,
        .max = 1,
        .origin = Origin::kGuessed,
