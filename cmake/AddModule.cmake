@@ -1,6 +1,8 @@
-# add_module(NAME [OUTSIDE_FRAMES] [DEPENDS module...] [LINKS target...] [OFFERS prefix...] [HIDES prefix...])
+# add_module(NAME [OUTSIDE_FRAMES] [FOLDERS folder...] [DEPENDS module...] [LINKS target...]
+#            [OFFERS prefix...] [HIDES prefix...])
 #
 # One library per folder: vitruvia_NAME, made of every *.cpp of the calling folder.
+#   FOLDERS  folders below it whose *.cpp belong to the module too
 #   OUTSIDE_FRAMES  nothing in it works on pixels or vertices: a release compiles it with -O1, which
 #            takes three quarters of the time
 #   DEPENDS  modules whose headers it may include (tests/lint holds the #include lines against this list)
@@ -8,8 +10,12 @@
 #   OFFERS   third-party header prefixes that come in with this module; every module above may include them
 #   HIDES    third-party header prefixes that only this module's own files may include
 function(add_module name)
-  cmake_parse_arguments(ARG "OUTSIDE_FRAMES" "" "DEPENDS;LINKS;OFFERS;HIDES" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS *.cpp)
+  cmake_parse_arguments(ARG "OUTSIDE_FRAMES" "" "FOLDERS;DEPENDS;LINKS;OFFERS;HIDES" ${ARGN})
+  set(patterns *.cpp)
+  foreach(folder ${ARG_FOLDERS})
+    list(APPEND patterns ${folder}/*.cpp)
+  endforeach()
+  file(GLOB sources CONFIGURE_DEPENDS ${patterns})
   list(TRANSFORM ARG_DEPENDS PREPEND vitruvia_)
   if(sources)
     add_library(vitruvia_${name} STATIC ${sources})

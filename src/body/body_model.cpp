@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstring>
 
+#include "config/json_settings.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "core/json_settings.h"
 #include "geometry/mesh_io.h"
 
 namespace vitruvia {

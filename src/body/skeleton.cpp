@@ -91,4 +91,17 @@ std::vector<Vector3<double>> PosedJoints(const Skeleton& skeleton, const BoneTra
   return joints;
 }
 
+UnmatchedJoints FindUnmatchedJoints(const std::vector<std::string>& joints_of_sequence) {
+  UnmatchedJoints unmatched;
+  for (const std::string& joint : joints_of_sequence) {
+    if (FindJoint(joint) < 0) unmatched.only_in_sequence.push_back(joint);
+  }
+  for (const BoneInfo& bone : Bones()) {
+    const bool there = std::find(joints_of_sequence.begin(), joints_of_sequence.end(),
+                                 bone.joint) != joints_of_sequence.end();
+    if (!there) unmatched.only_in_skeleton.emplace_back(bone.joint);
+  }
+  return unmatched;
+}
+
 }  // namespace vitruvia

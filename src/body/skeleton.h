@@ -72,4 +72,10 @@ BoneTransforms ForwardKinematics(const Skeleton& skeleton, const JointPose& pose
 // The joints' posed positions (as many as transforms).
 std::vector<Vector3<double>> PosedJoints(const Skeleton& skeleton, const BoneTransforms& bones);
 
+// Names that only one of the two has, in its order.
+struct UnmatchedJoints {
+  std::vector<std::string> only_in_sequence, only_in_skeleton;
+};
+UnmatchedJoints FindUnmatchedJoints(const std::vector<std::string>& joints_of_sequence);
+
 }  // namespace vitruvia

@@ -2,7 +2,7 @@
 // Pixel (0, 0) has its centre at u = 0, v = 0; depth is z, not ray length.
 #pragma once
 
-#include "core/settings.h"
+#include "config/settings.h"
 #include "math/rigid.h"
 
 namespace vitruvia {

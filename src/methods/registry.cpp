@@ -2,8 +2,8 @@
 
 #include <functional>
 
+#include "config/settings_schema.h"
 #include "core/error.h"
-#include "core/settings_schema.h"
 #include "methods/dynamic/dynamic.h"
 #include "methods/dynamic/skeleton_file.h"
 #include "methods/external/external.h"

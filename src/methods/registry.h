@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/json_settings.h"
+#include "config/json_settings.h"
 #include "tracking/tracker.h"
 
 namespace vitruvia {

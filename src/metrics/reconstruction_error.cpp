@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/kd_tree.h"
 #include "geometry/surface_map.h"
+#include "search/kd_tree.h"
 
 namespace vitruvia {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/error.h"
-#include "metrics/statistics.h"
+#include "math/statistics.h"
 
 namespace vitruvia {
 

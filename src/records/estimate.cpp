@@ -6,10 +6,10 @@
 #include <cerrno>
 #include <fstream>
 
+#include "config/json_node.h"
 #include "core/files.h"
 #include "core/write_failure.h"
 #include "geometry/mesh_io.h"
-#include "records/json_node.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;

@@ -1,6 +1,6 @@
 #include "records/metric_value.h"
 
-#include "records/json_node.h"
+#include "config/json_node.h"
 
 namespace vitruvia {
 namespace {

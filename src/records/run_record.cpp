@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "config/json_node.h"
 #include "core/files.h"
-#include "records/json_node.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;

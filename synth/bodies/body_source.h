@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "body/body_model.h"
-#include "core/settings.h"
+#include "config/settings.h"
 #include "geometry/mesh.h"
 
 namespace vitruvia {

@@ -5,8 +5,8 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "body/subdivision.h"
 #include "core/error.h"
-#include "geometry/subdivision.h"
 #include "synth/bodies/mannequin_cage.h"
 #include "synth/bodies/mannequin_shape.h"
 #include "synth/bodies/mannequin_tables.h"

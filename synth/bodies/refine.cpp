@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <functional>
 
+#include "body/subdivision.h"
 #include "core/error.h"
 #include "geometry/decimation.h"
-#include "geometry/subdivision.h"
 #include "synth/bodies/body_source.h"
 
 namespace vitruvia {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "body/body_model.h"
-#include "core/settings.h"
+#include "config/settings.h"
 
 namespace vitruvia {
 

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "config/json_settings.h"
+#include "config/settings_schema.h"
 #include "core/error.h"
-#include "core/json_settings.h"
-#include "core/settings_schema.h"
 
 namespace vitruvia {
 namespace {

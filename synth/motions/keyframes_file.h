@@ -18,7 +18,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/settings.h"
+#include "config/settings.h"
 #include "synth/motions/keyframes_pose.h"
 
 namespace vitruvia {

@@ -3,9 +3,9 @@
 
 #include <string>
 
+#include "body/joint_limits.h"
 #include "body/skeleton.h"
-#include "core/settings.h"
-#include "synth/motions/joint_limits.h"
+#include "config/settings.h"
 
 namespace vitruvia {
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "body/skeleton.h"
-#include "core/settings.h"
+#include "config/settings.h"
 
 namespace vitruvia {
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "config/settings.h"
 #include "core/random.h"
-#include "core/settings.h"
 #include "synth/bodies/body_source.h"
 
 namespace vitruvia {

@@ -1,8 +1,8 @@
 #include "synth/population/make_database.h"
 
+#include "config/json_settings.h"
 #include "core/build_info.h"
 #include "core/error.h"
-#include "core/json_settings.h"
 #include "core/progress.h"
 #include "synth/bodies/mannequin.h"
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <memory>
 
+#include "config/settings.h"
 #include "core/random.h"
-#include "core/settings.h"
 #include "synth/bodies/body_source.h"
 
 namespace vitruvia {

@@ -1,11 +1,11 @@
 #include "synth/scan/record_scan.h"
 
+#include "config/json_settings.h"
 #include "core/build_info.h"
-#include "core/json_settings.h"
 #include "core/progress.h"
+#include "sequence/joint_visibility.h"
 #include "sequence/sequence.h"
 #include "synth/scan/scan_recorder.h"
-#include "synth/scene/recording.h"
 
 namespace vitruvia {
 namespace {

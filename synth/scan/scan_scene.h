@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/settings.h"
+#include "config/settings.h"
 #include "geometry/camera.h"
 #include "synth/bodies/body_source.h"
 #include "synth/scene/scene.h"

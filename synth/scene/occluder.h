@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "core/settings.h"
+#include "config/settings.h"
 #include "geometry/mesh.h"
 #include "math/rigid.h"
 

@@ -5,12 +5,13 @@
 #include <cstdio>
 #include <limits>
 
+#include "config/json_settings.h"
 #include "core/build_info.h"
 #include "core/error.h"
-#include "core/json_settings.h"
 #include "core/message.h"
 #include "core/progress.h"
 #include "geometry/surface_map.h"
+#include "sequence/joint_visibility.h"
 #include "sequence/sequence.h"
 #include "synth/cloth/garment.h"
 #include "synth/render/depth_renderer.h"
@@ -241,32 +242,6 @@ PosedBody Pose(const BodyModel& body, const MotionSample& sample, Skinning skinn
     posed.camera_from_rest.push_back(camera_from_posed * posed_from_rest);
   }
   return posed;
-}
-
-double JointBelowSkin(int bone) {
-  for (const BoneId trunk : {BoneId::kPelvis, BoneId::kAbdomen, BoneId::kChest}) {
-    if (bone == static_cast<int>(trunk)) return kTrunkJointBelowSkinM;
-  }
-  return kLimbJointBelowSkinM;
-}
-
-bool SeesJoint(const Vector3d& joint_in_camera, double below_skin_m, const DepthImage& depth,
-               const PinholeCamera& camera) {
-  if (!camera.InView(joint_in_camera)) return false;
-  const Eigen::Vector2d pixel = camera.Project(joint_in_camera);
-  const float skin =
-      depth(static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y())));
-  return skin == 0.0f || joint_in_camera.z() - skin <= below_skin_m;
-}
-
-std::vector<bool> VisibleJoints(const std::vector<Vector3d>& joints_in_camera,
-                                const DepthImage& depth, const PinholeCamera& camera) {
-  std::vector<bool> visible;
-  for (std::size_t i = 0; i < joints_in_camera.size(); ++i) {
-    visible.push_back(
-        SeesJoint(joints_in_camera[i], JointBelowSkin(static_cast<int>(i)), depth, camera));
-  }
-  return visible;
 }
 
 void RecordSequence(const SceneSettings& settings, const BodyModel& truth, const BodyModel& subject,

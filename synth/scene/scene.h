@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/settings.h"
+#include "config/settings.h"
 #include "geometry/camera.h"
 #include "synth/bodies/body_source.h"
 #include "synth/cloth/garment.h"

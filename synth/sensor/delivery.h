@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/settings.h"
+#include "config/settings.h"
 
 namespace vitruvia {
 

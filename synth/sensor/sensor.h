@@ -1,8 +1,8 @@
 // Sensor models: what a depth camera makes of true depth, and which frames arrive when.
 #pragma once
 
+#include "config/settings.h"
 #include "core/random.h"
-#include "core/settings.h"
 #include "geometry/camera.h"
 #include "geometry/image.h"
 #include "synth/sensor/delivery.h"

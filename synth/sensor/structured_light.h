@@ -8,8 +8,8 @@
 // correlation window; surfaces that only the projector sees cast no shadow.
 #pragma once
 
+#include "config/settings.h"
 #include "core/random.h"
-#include "core/settings.h"
 #include "geometry/camera.h"
 #include "geometry/image.h"
 

@@ -5,8 +5,8 @@
 // error of a few millimetres, multipath in corners, the albedo of clothes.
 #pragma once
 
+#include "config/settings.h"
 #include "core/random.h"
-#include "core/settings.h"
 #include "geometry/camera.h"
 #include "geometry/image.h"
 

@@ -5,10 +5,10 @@
 #include <filesystem>
 
 #include "bench/bench.h"
+#include "config/json_settings.h"
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "core/json_settings.h"
 #include "core/timer.h"
 
 namespace vitruvia::bench {

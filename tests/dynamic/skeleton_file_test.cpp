@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "config/json_settings.h"
 #include "core/error.h"
-#include "core/json_settings.h"
 #include "dynamic_fixtures.h"
 
 namespace vitruvia::dynamic {

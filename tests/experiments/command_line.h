@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "config/json_settings.h"
 #include "core/error.h"
-#include "core/json_settings.h"
 #include "support/temporary_folder.h"
 
 namespace vitruvia {

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "core/files.h"
-#include "experiments/experiment_config.h"
-#include "experiments/score.h"
+#include "experiments/plan/experiment_config.h"
+#include "scoring/score.h"
 
 namespace vitruvia {
 namespace {

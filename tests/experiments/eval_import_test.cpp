@@ -1,6 +1,6 @@
 // A synthesised sequence written as a file of Stanford EVAL and imported again: the same depth, the
 // same camera, the same joints, and the same score of a tracker.
-#include "experiments/eval_import.h"
+#include "importers/eval_import.h"
 
 #include <cmath>
 

@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "body/body_model.h"
+#include "config/json_settings.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "core/json_settings.h"
-#include "experiments/commands.h"
+#include "experiments/cli/commands.h"
 #include "geometry/mesh_io.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_body.h"

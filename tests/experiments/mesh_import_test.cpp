@@ -1,5 +1,5 @@
 // A sequence taken apart into mesh files and imported again: the same sequence.
-#include "experiments/mesh_import.h"
+#include "importers/mesh_import.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,10 +1,10 @@
 // However the path of an experiment is spelt, and from wherever it is called: the same runs.
 #include <gmock/gmock.h>
 
+#include "config/build_cache.h"
 #include "core/files.h"
 #include "experiments/command_line.h"
-#include "experiments/experiment_config.h"
-#include "experiments/kept_work.h"
+#include "experiments/plan/experiment_config.h"
 
 namespace vitruvia {
 namespace {

@@ -1,4 +1,4 @@
-#include "experiments/run_health.h"
+#include "scoring/run_health.h"
 
 #include <limits>
 

@@ -1,6 +1,6 @@
 // Runs that fail, crash, hang and are killed; several callers on one folder. The runs do no work of
 // their own: what is tried is how they are carried out.
-#include "experiments/runner.h"
+#include "experiments/run/runner.h"
 
 #include <chrono>
 #include <csignal>
@@ -17,8 +17,8 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "experiments/command_line.h"
-#include "experiments/run_selection.h"
-#include "experiments/run_state.h"
+#include "experiments/plan/run_selection.h"
+#include "experiments/run/run_state.h"
 #include "support/temporary_folder.h"
 
 namespace vitruvia {

@@ -1,12 +1,12 @@
 // Scans of a small scene: what comes out, and how a bad one is refused.
-#include "experiments/scan.h"
+#include "subjects/scan.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "core/files.h"
-#include "experiments/commands.h"
+#include "experiments/cli/commands.h"
 #include "geometry/mesh_io.h"
 #include "support/temporary_folder.h"
 #include "synth/scan/record_scan.h"

@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "core/files.h"
+#include "experiments/cli/config_kinds.h"
 #include "experiments/command_line.h"
-#include "experiments/config_kinds.h"
 
 namespace vitruvia {
 namespace {

@@ -1,5 +1,5 @@
 // The smallest model that a scene needs.
-#include "experiments/sufficient.h"
+#include "experiments/studies/sufficient.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // What a sweep stands for, and which are refused.
-#include "experiments/sweep.h"
+#include "experiments/plan/sweep.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "experiments/command_line.h"
-#include "experiments/experiment_config.h"
+#include "experiments/plan/experiment_config.h"
 
 namespace vitruvia {
 namespace {

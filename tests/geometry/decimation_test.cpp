@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "shapes.h"
+#include "support/shapes.h"
 
 namespace vitruvia {
 namespace {

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/random.h"
-#include "shapes.h"
+#include "support/shapes.h"
 #include "tests/support/temporary_folder.h"
 
 namespace vitruvia {

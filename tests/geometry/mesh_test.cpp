@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "shapes.h"
+#include "support/shapes.h"
 
 namespace vitruvia {
 namespace {

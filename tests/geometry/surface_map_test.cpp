@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "shapes.h"
+#include "support/shapes.h"
 
 namespace vitruvia {
 namespace {

@@ -61,13 +61,13 @@ std::vector<Module> ParseModules(const SourceFile& file) {
                   .offers = {},
                   .hides = {}};
     words >> module.name;
-    std::vector<std::string> links;
+    std::vector<std::string> others;
     std::vector<std::string>* list = nullptr;
     for (std::string word; words >> word;) {
       if (word == "DEPENDS")
         list = &module.depends;
-      else if (word == "LINKS")
-        list = &links;
+      else if (word == "LINKS" || word == "FOLDERS")
+        list = &others;
       else if (word == "OFFERS")
         list = &module.offers;
       else if (word == "HIDES")

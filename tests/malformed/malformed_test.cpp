@@ -2,15 +2,15 @@
 // a documented exit code, and none brings the program down.
 #include <gtest/gtest.h>
 
+#include "config/json_settings.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "core/json_settings.h"
 #include "core/random.h"
-#include "experiments/experiment_config.h"
-#include "experiments/experiment_kinds.h"
-#include "experiments/learned_model.h"
-#include "experiments/scan.h"
+#include "experiments/plan/experiment_config.h"
+#include "experiments/studies/experiment_kinds.h"
 #include "methods/dynamic/skeleton_file.h"
+#include "subjects/learned_model.h"
+#include "subjects/scan.h"
 #include "support/temporary_folder.h"
 
 namespace vitruvia {

@@ -6,8 +6,8 @@
 #include <Eigen/Dense>
 
 #include "core/random.h"
-#include "methods/realtime_scape/fit_term.h"
-#include "methods/realtime_scape/inertia_term.h"
+#include "methods/realtime_scape/terms/fit_term.h"
+#include "methods/realtime_scape/terms/inertia_term.h"
 #include "support/tiny_body.h"
 
 namespace vitruvia::realtime_scape {

@@ -7,11 +7,11 @@
 
 #include "core/error.h"
 #include "methods/posed_tiny_body.h"
-#include "methods/realtime_scape/axis_term.h"
-#include "methods/realtime_scape/fit_term.h"
-#include "methods/realtime_scape/inertia_term.h"
-#include "methods/realtime_scape/joint_term.h"
 #include "methods/realtime_scape/pose_step.h"
+#include "methods/realtime_scape/terms/axis_term.h"
+#include "methods/realtime_scape/terms/fit_term.h"
+#include "methods/realtime_scape/terms/inertia_term.h"
+#include "methods/realtime_scape/terms/joint_term.h"
 #include "solver/ceres_adaptor.h"
 #include "solver/linear_solver.h"
 

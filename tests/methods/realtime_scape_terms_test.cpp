@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "methods/posed_tiny_body.h"
-#include "methods/realtime_scape/axis_term.h"
-#include "methods/realtime_scape/fit_term.h"
-#include "methods/realtime_scape/inertia_term.h"
-#include "methods/realtime_scape/joint_term.h"
+#include "methods/realtime_scape/terms/axis_term.h"
+#include "methods/realtime_scape/terms/fit_term.h"
+#include "methods/realtime_scape/terms/inertia_term.h"
+#include "methods/realtime_scape/terms/joint_term.h"
 
 namespace vitruvia::realtime_scape {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "math/statistics.h"
 #include "metrics/joint_error.h"
-#include "metrics/statistics.h"
 #include "metrics/vertex_error.h"
 
 namespace vitruvia {

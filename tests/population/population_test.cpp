@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "metrics/statistics.h"
+#include "math/statistics.h"
 #include "synth/bodies/mannequin.h"
 #include "synth/population/make_database.h"
 

@@ -9,8 +9,8 @@
 #include <gmock/gmock.h>
 
 #include "core/files.h"
-#include "reports/index_page.h"
-#include "reports/report.h"
+#include "reports/pages/index_page.h"
+#include "reports/pages/report.h"
 #include "reports/synthetic_experiment.h"
 #include "support/temporary_folder.h"
 

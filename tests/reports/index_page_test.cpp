@@ -1,4 +1,4 @@
-#include "reports/index_page.h"
+#include "reports/pages/index_page.h"
 
 #include <cmath>
 
@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "reports/history_figure.h"
+#include "reports/figures/history_figure.h"
 #include "reports/synthetic_experiment.h"
 #include "support/count.h"
 #include "support/temporary_folder.h"

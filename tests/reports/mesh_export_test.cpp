@@ -1,4 +1,4 @@
-#include "reports/mesh_export.h"
+#include "reports/export/mesh_export.h"
 
 #include <gmock/gmock.h>
 #include <vtkFloatArray.h>
@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "metrics/statistics.h"
+#include "math/statistics.h"
 #include "records/estimate.h"
 #include "records/run_record.h"
 #include "reports/synthetic_experiment.h"

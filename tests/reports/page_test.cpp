@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "reports/html_page.h"
+#include "analysis/tables.h"
+#include "reports/pages/html_page.h"
 #include "reports/synthetic_experiment.h"
-#include "reports/tables.h"
 #include "support/count.h"
 #include "support/temporary_folder.h"
 

@@ -1,10 +1,10 @@
-#include "reports/pictures.h"
+#include "reports/pictures/pictures.h"
 
 #include <gmock/gmock.h>
 
 #include "geometry/zbuffer.h"
-#include "reports/color_maps.h"
-#include "reports/mesh_view.h"
+#include "reports/drawing/color_maps.h"
+#include "reports/drawing/mesh_view.h"
 #include "reports/synthetic_experiment.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_body.h"

@@ -1,4 +1,4 @@
-#include "reports/plot.h"
+#include "reports/drawing/plot.h"
 
 #include <cmath>
 
@@ -6,8 +6,8 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "reports/axis.h"
-#include "reports/run_plots.h"
+#include "reports/drawing/axis.h"
+#include "reports/figures/run_plots.h"
 #include "support/temporary_folder.h"
 
 namespace vitruvia {

@@ -1,4 +1,4 @@
-#include "reports/report.h"
+#include "reports/pages/report.h"
 
 #include <cstdlib>
 #include <regex>
@@ -9,11 +9,11 @@
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
 
+#include "analysis/tables.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "records/run_record.h"
 #include "reports/synthetic_experiment.h"
-#include "reports/tables.h"
 #include "support/count.h"
 #include "support/temporary_folder.h"
 

@@ -1,8 +1,8 @@
-#include "reports/side_by_side.h"
+#include "reports/pictures/side_by_side.h"
 
 #include <gmock/gmock.h>
 
-#include "reports/color_maps.h"
+#include "reports/drawing/color_maps.h"
 #include "reports/synthetic_experiment.h"
 #include "support/temporary_folder.h"
 

@@ -6,8 +6,8 @@
 
 #include "body/body_model.h"
 #include "geometry/zbuffer.h"
+#include "math/statistics.h"
 #include "metrics/joint_error.h"
-#include "metrics/statistics.h"
 #include "metrics/vertex_error.h"
 #include "records/estimate.h"
 #include "sequence/sequence.h"

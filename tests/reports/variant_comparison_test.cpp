@@ -1,4 +1,4 @@
-#include "reports/variant_comparison.h"
+#include "analysis/variant_comparison.h"
 
 #include <cmath>
 
@@ -6,8 +6,8 @@
 
 #include "core/error.h"
 #include "records/metric_value.h"
-#include "reports/comparison_section.h"
-#include "reports/speed_figure.h"
+#include "reports/figures/speed_figure.h"
+#include "reports/pages/comparison_section.h"
 
 namespace vitruvia {
 namespace {

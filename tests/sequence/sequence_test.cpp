@@ -8,9 +8,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "config/json_settings.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "core/json_settings.h"
 #include "geometry/depth_png.h"
 #include "geometry/mask_png.h"
 #include "support/temporary_folder.h"

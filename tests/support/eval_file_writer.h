@@ -1,4 +1,4 @@
-// Writes files of the layout of Stanford EVAL (sequence/eval_file.h), independently of the reader:
+// Writes files of the layout of Stanford EVAL (importers/eval_file.h), independently of the reader:
 // by a packed struct, as the data set's own programs have it.
 #pragma once
 

@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "body_measures.h"
+#include "config/json_settings.h"
 #include "core/error.h"
-#include "core/json_settings.h"
-#include "geometry/kd_tree.h"
+#include "search/kd_tree.h"
 #include "synth/bodies/mannequin_tables.h"
 
 namespace vitruvia {

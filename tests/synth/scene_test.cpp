@@ -6,9 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "config/json_settings.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "core/json_settings.h"
+#include "sequence/joint_visibility.h"
 #include "sequence/sequence.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_body.h"

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "config/json_settings.h"
 #include "core/error.h"
-#include "core/json_settings.h"
 
 namespace vitruvia {
 namespace {

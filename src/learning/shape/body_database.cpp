@@ -6,9 +6,9 @@
 #include <set>
 #include <span>
 
+#include "config/json_settings.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "core/json_settings.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;

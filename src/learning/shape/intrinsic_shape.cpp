@@ -6,8 +6,8 @@
 #include <Eigen/Cholesky>
 
 #include "core/error.h"
-#include "geometry/kd_tree.h"
 #include "math/angles.h"
+#include "search/kd_tree.h"
 
 namespace vitruvia {
 namespace {

@@ -11,7 +11,7 @@
 
 #include <string>
 
-#include "core/settings.h"
+#include "config/settings.h"
 #include "learning/shape/attribute_subspace.h"
 #include "learning/shape/posed_shape.h"
 

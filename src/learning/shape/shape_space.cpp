@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "learning/shape/scape_mesh.h"
-#include "metrics/statistics.h"
+#include "math/statistics.h"
 
 namespace vitruvia {
 namespace {

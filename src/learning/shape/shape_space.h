@@ -8,7 +8,7 @@
 
 #include <filesystem>
 
-#include "core/settings.h"
+#include "config/settings.h"
 #include "learning/shape/body_database.h"
 
 namespace vitruvia {

@@ -2,9 +2,9 @@
 #include <bit>
 #include <cstring>
 
+#include "config/json_settings.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "core/json_settings.h"
 #include "learning/shape/shape_space.h"
 
 namespace vitruvia {

@@ -1,7 +1,7 @@
 // Settings of the skinning decomposition (paper A, eqs. 2 to 5).
 #pragma once
 
-#include "core/settings.h"
+#include "config/settings.h"
 
 namespace vitruvia::skinning {
 

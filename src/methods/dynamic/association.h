@@ -7,7 +7,7 @@
 
 #include "core/worker_team.h"
 #include "geometry/camera.h"
-#include "matching/point_cloud.h"
+#include "geometry/point_cloud.h"
 #include "methods/dynamic/surface.h"
 
 namespace vitruvia::dynamic {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/settings.h"
+#include "config/settings.h"
 
 namespace vitruvia::dynamic {
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "body/skeleton.h"
-#include "core/json_settings.h"
+#include "config/json_settings.h"
 
 namespace vitruvia::dynamic {
 namespace {

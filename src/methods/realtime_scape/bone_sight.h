@@ -1,9 +1,9 @@
 // How much of each bone the data confirm, and for how long they have not.
 #pragma once
 
-#include "matching/classification.h"
 #include "methods/realtime_scape/model.h"
 #include "methods/realtime_scape/settings.h"
+#include "tracking/classification.h"
 
 namespace vitruvia::realtime_scape {
 

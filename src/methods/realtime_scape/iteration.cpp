@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "matching/visibility.h"
 #include "math/angles.h"
-#include "methods/realtime_scape/axis_term.h"
 #include "methods/realtime_scape/pose_step.h"
 #include "methods/realtime_scape/session.h"
+#include "methods/realtime_scape/terms/axis_term.h"
+#include "tracking/visibility.h"
 
 namespace vitruvia::realtime_scape {
 

@@ -5,9 +5,9 @@
 
 #include <Eigen/SVD>
 
-#include "geometry/kd_tree.h"
-#include "matching/visibility.h"
 #include "math/angles.h"
+#include "search/kd_tree.h"
+#include "tracking/visibility.h"
 
 namespace vitruvia::realtime_scape {
 namespace {

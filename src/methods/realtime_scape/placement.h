@@ -2,7 +2,7 @@
 #pragma once
 
 #include "geometry/mesh_rasterizer.h"
-#include "matching/point_cloud.h"
+#include "geometry/point_cloud.h"
 #include "methods/realtime_scape/model.h"
 #include "methods/realtime_scape/settings.h"
 

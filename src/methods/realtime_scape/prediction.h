@@ -2,9 +2,9 @@
 #pragma once
 
 #include "methods/realtime_scape/bone_sight.h"
-#include "methods/realtime_scape/inertia_term.h"
 #include "methods/realtime_scape/model.h"
 #include "methods/realtime_scape/settings.h"
+#include "methods/realtime_scape/terms/inertia_term.h"
 
 namespace vitruvia::realtime_scape {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "methods/realtime_scape/inertia_term.h"
+#include "methods/realtime_scape/terms/inertia_term.h"
 
 namespace vitruvia::realtime_scape {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "matching/classification.h"
 #include "methods/realtime_scape/model.h"
 #include "methods/realtime_scape/settings.h"
+#include "tracking/classification.h"
 
 namespace vitruvia::realtime_scape {
 

@@ -7,10 +7,10 @@
 
 #include "core/timer.h"
 #include "methods/realtime_scape/bone_sight.h"
-#include "methods/realtime_scape/fit_term.h"
-#include "methods/realtime_scape/inertia_term.h"
-#include "methods/realtime_scape/joint_term.h"
 #include "methods/realtime_scape/realtime_scape.h"
+#include "methods/realtime_scape/terms/fit_term.h"
+#include "methods/realtime_scape/terms/inertia_term.h"
+#include "methods/realtime_scape/terms/joint_term.h"
 #include "solver/linear_solver.h"
 
 namespace vitruvia::realtime_scape {

@@ -3,10 +3,10 @@
 
 #include <array>
 
-#include "core/settings.h"
+#include "config/settings.h"
 #include "geometry/mesh_rasterizer.h"
-#include "matching/classification.h"
 #include "solver/linear_solver.h"
+#include "tracking/classification.h"
 
 namespace vitruvia::realtime_scape {
 

@@ -1,0 +1,191 @@
+#include "experiments/cli/commands.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <system_error>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "core/build_info.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/message.h"
+#include "core/progress.h"
+#include "core/write_failure.h"
+#include "experiments/cli/compare_command.h"
+#include "experiments/cli/explain.h"
+#include "experiments/cli/export_command.h"
+#include "experiments/cli/import_command.h"
+#include "experiments/cli/index_command.h"
+#include "experiments/cli/learn_command.h"
+#include "experiments/cli/learn_shape_command.h"
+#include "experiments/cli/regress_command.h"
+#include "experiments/cli/rescore_command.h"
+#include "experiments/cli/run_command.h"
+#include "experiments/cli/scan_command.h"
+#include "experiments/cli/schema_command.h"
+#include "experiments/cli/status_command.h"
+#include "experiments/cli/submit_command.h"
+#include "experiments/cli/sufficient_command.h"
+#include "experiments/plan/experiment_config.h"
+#include "experiments/run/tracking_runs.h"
+#include "reports/pages/report.h"
+#include "scoring/score.h"
+
+namespace vitruvia {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kExitCodes =
+    "Exit codes: 0 success, 1 internal error, 2 bad configuration or arguments, 3 bad data, "
+    "4 failed run or output not writable, 5 accuracy regressed, 6 speed regressed, 7 nothing "
+    "measured, 130 interrupted.";
+
+std::string VersionText() {
+  const BuildInfo& build = GetBuildInfo();
+  return fmt::format(
+      "vitruvia {}\ncommit:    {}\ncompiler:  {}\nbuild:     {}\nflags:     {}\nlibraries: {}",
+      build.version, build.commit, build.compiler, build.build_type, build.flags, build.libraries);
+}
+
+void PrintConfigs(const fs::path& folder) {
+  std::vector<std::string> files;
+  if (fs::is_directory(folder)) {
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+      if (entry.path().extension() == ".json") files.push_back(entry.path().string());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  for (const std::string& file : files) fmt::print("  {}\n", file);
+  if (files.empty()) fmt::print("  none: there is no folder {} here\n", folder.string());
+}
+
+void List() {
+  fmt::print("methods:\n");
+  for (const MethodInfo& method : Methods())
+    fmt::print("  {:<16} {}\n", method.name, method.description);
+  fmt::print("config files:\n");
+  PrintConfigs("configs");
+}
+
+void Synthesize(const fs::path& scene_file, const fs::path& output) {
+  SynthesizeSequence(ReadScene(scene_file), output);
+  fmt::print("{}\n", output.string());
+}
+
+void Verify(const fs::path& folder) {
+  VerifySequence(folder);
+  fmt::print("{}: complete and consistent\n", folder.string());
+}
+
+struct Arguments {
+  fs::path scene, method, sequence, subject, verified, reported, output;
+  std::string key;
+};
+
+void Track(const Arguments& a) {
+  const MethodConfig method = ReadMethodConfig(ReadJsonFile(a.method), {a.method, ""});
+  const SequenceReader sequence(a.sequence);
+  const BodyModel subject = a.subject.empty() ? sequence.subject() : ReadBodyModel(a.subject);
+  const auto as_stored = [](DepthFrame&) {};
+  TrackSequence(sequence, method, subject, as_stored, a.output);
+  RunRecord record;
+  ScoreRun(sequence, EstimateReader(a.output), ScoreSettings(), record);
+  fmt::print("{}\n", record.summary.dump(2));
+}
+
+void AddCommands(CLI::App& app, Arguments& a) {
+  app.set_version_flag("--version", VersionText());
+  app.require_subcommand(0, 1);  // CLI11's own demand for one would hide a misspelt command's name
+  app.footer(kExitCodes);
+
+  app.add_subcommand("list", "List methods and config files")->callback(List);
+
+  CLI::App* synth =
+      app.add_subcommand("synth", "Synthesise a sequence from a scene, or verify one");
+  synth->add_option("SCENE", a.scene, "scene file");
+  synth->add_option("-o,--output", a.output, "folder of the new sequence");
+  synth->add_option("--verify", a.verified, "check this sequence instead of making one");
+  synth->callback([&a] {
+    if (!a.verified.empty()) return Verify(a.verified);
+    if (a.scene.empty() || a.output.empty())
+      throw ConfigError("synth: expected SCENE.json -o DIR, or --verify DIR");
+    Synthesize(a.scene, a.output);
+  });
+
+  CLI::App* track = app.add_subcommand("track", "Track a sequence and score the result");
+  track->add_option("METHOD", a.method, "method file")->required();
+  track->add_option("--sequence", a.sequence, "folder of the sequence")->required();
+  track->add_option("-o,--output", a.output, "folder of the estimate")->required();
+  track->add_option("--subject", a.subject,
+                    "folder of the tracker's subject; the sequence's own without");
+  track->callback([&a] { Track(a); });
+
+  AddRunCommand(app);
+  AddStatusCommand(app);
+  AddSubmitCommand(app);
+  AddSufficientCommand(app);
+  AddRescoreCommand(app);
+  AddExportCommand(app);
+  AddImportCommand(app);
+
+  CLI::App* report =
+      app.add_subcommand("report", "Draw an experiment's report again from its records");
+  report->add_option("DIR", a.reported, "the experiment's folder")->required();
+  report->callback([&a] { fmt::print("report: {}\n", WriteReport(a.reported).string()); });
+
+  AddIndexCommand(app);
+  AddCompareCommand(app);
+  AddRegressCommand(app);
+  AddSchemaCommand(app);
+  AddLearnCommand(app);
+  AddScanCommand(app);
+  AddFitCommand(app);
+
+  CLI::App* explain =
+      app.add_subcommand("explain", "Say what a setting means; without KEY list all");
+  explain->add_option("KEY", a.key, "a setting's key or the beginning of one");
+  explain->callback([&a] { fmt::print("{}", Explain(a.key)); });
+}
+
+}  // namespace
+
+int RunCommandLine(int argc, const char* const* argv) {
+  std::signal(SIGINT, [](int) { RequestInterrupt(); });
+  std::signal(SIGTERM, [](int) { RequestInterrupt(); });
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that must not grow is an error that is told
+  CLI::App app("Measures how well and how fast a human body can be tracked from one depth camera.",
+               "vitruvia");
+  Arguments arguments;
+  try {
+    AddCommands(app, arguments);
+    app.parse(argc, argv);
+    if (app.get_subcommands().empty()) {
+      throw ConfigError(
+          "expected a command: list, synth, import, learn, scan, fit, track, run, status, submit, "
+          "rescore, export, report, index, compare, "
+          "sufficient, regress, schema or explain (--help)");
+    }
+    if (std::fflush(stdout) != 0) FailToWrite("standard output", errno);
+    return static_cast<int>(ExitCode::kSuccess);
+  } catch (const CLI::Success& success) {  // --help, --version
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    app.exit(error);
+    return static_cast<int>(ExitCode::kBadConfiguration);
+  } catch (const Error& error) {
+    PrintMessage("vitruvia: {}\n", error.what());
+    return static_cast<int>(error.code());
+  } catch (const std::system_error& error) {  // standard output that takes no more, say
+    PrintMessage("vitruvia: {}\n", error.what());
+    return static_cast<int>(ExitCode::kFailedRun);
+  } catch (const std::exception& error) {
+    PrintMessage("vitruvia: internal error: {}\n", error.what());
+    return static_cast<int>(ExitCode::kInternalError);
+  }
+}
+
+}  // namespace vitruvia

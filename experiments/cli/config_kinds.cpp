@@ -1,0 +1,65 @@
+#include "experiments/cli/config_kinds.h"
+
+#include "config/settings_schema.h"
+#include "core/error.h"
+#include "experiments/cli/regress_config.h"
+#include "experiments/plan/experiment_config.h"
+#include "experiments/studies/shape_study.h"
+#include "experiments/studies/weight_study.h"
+#include "importers/eval_import.h"
+#include "importers/mesh_import.h"
+#include "subjects/fitted_subject.h"
+#include "subjects/scan.h"
+#include "synth/motions/keyframes_file.h"
+
+namespace vitruvia {
+const std::vector<ConfigKind>& ConfigKinds() {
+  static const std::vector<ConfigKind> kinds = [] {
+    std::vector<ConfigKind> list = {
+        {"experiment", "runs of trackers on scenes", VisitDefaults<ExperimentSettings>, nullptr},
+        {"intrinsic_shape", "an experiment of that kind: shapes fitted to scans",
+         VisitDefaults<ShapeStudySettings>, nullptr},
+        {"skinning_weights", "an experiment of that kind: weights used on other people",
+         VisitDefaults<WeightStudySettings>, nullptr},
+        {"regression", "what the regression gate measures", VisitDefaults<RegressSettings>,
+         nullptr},
+        {"scene", "a body, its motion and a camera", VisitDefaults<SceneSettings>, nullptr},
+        {"method", "a tracking method and its settings", VisitMethodFile, MethodFileSchema},
+        {"scan", "a camera that moves round a person", VisitDefaults<ScanSettings>, nullptr},
+        {"learning", "what is learnt from a population", VisitDefaults<LearningSettings>, nullptr},
+        {"fit", "how a shape is fitted to a scan", VisitDefaults<IntrinsicShapeSettings>, nullptr},
+        {"subject", "a subject that is scanned and fitted", VisitSubjectFile, nullptr},
+        {"skeleton", "a kinematic skeleton", VisitSkeletonFile, nullptr},
+        {"import_meshes", "mesh files made into a sequence", VisitDefaults<MeshSequenceSettings>,
+         nullptr},
+        {"import_eval", "Stanford EVAL files made into a sequence",
+         VisitDefaults<EvalImportSettings>, nullptr},
+        {"motion", "key frames of a motion", VisitMotionFile, nullptr}};
+    for (const MethodInfo& method : Methods()) {
+      list.push_back(
+          {method.name, "settings of the method " + method.name, method.visit_settings, nullptr});
+    }
+    return list;
+  }();
+  return kinds;
+}
+
+const ConfigKind& FindConfigKind(const std::string& name) {
+  std::vector<std::string> names;
+  for (const ConfigKind& kind : ConfigKinds()) {
+    if (kind.name == name) return kind;
+    names.push_back(kind.name);
+  }
+  const std::string nearest = NearestWord(name, names);
+  throw ConfigError(
+      fmt::format("schema: no kind of config \"{}\"; {}there are: {}", name,
+                  nearest.empty() ? "" : fmt::format("did you mean \"{}\"? ", nearest),
+                  fmt::join(names, ", ")));
+}
+
+Json SchemaOf(const ConfigKind& kind) {
+  return ConfigSchema("vitruvia: " + kind.meaning,
+                      kind.schema != nullptr ? kind.schema() : SettingsSchema(kind.visit));
+}
+
+}  // namespace vitruvia

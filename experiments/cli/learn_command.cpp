@@ -1,0 +1,19 @@
+#include "experiments/cli/learn_command.h"
+
+#include <CLI/CLI.hpp>
+
+#include "experiments/cli/learn_shape_command.h"
+#include "experiments/cli/learn_weights_command.h"
+
+namespace vitruvia {
+
+void AddLearnCommand(CLI::App& app) {
+  CLI::App* learn = app.add_subcommand("learn", "Learn from bodies what a tracker needs to know");
+  learn->require_subcommand(1);
+  AddLearnDatabaseCommand(*learn);
+  AddLearnShapeCommand(*learn);
+  AddLearnWeightsCommand(*learn);
+  AddLearnComparisonCommand(*learn);
+}
+
+}  // namespace vitruvia

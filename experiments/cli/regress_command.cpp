@@ -1,0 +1,145 @@
+#include "experiments/cli/regress_command.h"
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/chrono.h>
+
+#include "analysis/gate_reports.h"
+#include "core/build_info.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "experiments/cli/regress_config.h"
+#include "experiments/plan/experiment_config.h"
+
+namespace vitruvia {
+namespace fs = std::filesystem;
+namespace {
+
+struct RegressArguments {
+  fs::path config, baseline, output;
+  std::string only, reason;
+  bool update = false, stored = false;
+};
+
+// Where the gate's files lie.
+struct GatePlaces {
+  fs::path baseline, output, shared, history;
+};
+
+GatePlaces PlacesOf(const RegressArguments& a) {
+  const std::string name = ConfigName(a.config);
+  GatePlaces places;
+  places.baseline = a.baseline / (name + ".json");
+  places.output = a.output.empty() ? fs::path("out") / name : a.output;
+  places.shared = a.output.empty() ? fs::path("out") : a.output;
+  places.history = places.output / "history.json";
+  return places;
+}
+
+std::string NowUtc() {
+  return fmt::format(
+      "{:%Y-%m-%dT%H:%M:%SZ}",
+      fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+}
+
+void CheckArguments(const RegressArguments& a) {
+  if (a.update && a.reason.empty())
+    throw ConfigError("regress: --update needs --reason TEXT: why the baseline may change");
+  if (a.update && !a.only.empty())
+    throw ConfigError("regress: --update renews the whole baseline; --only cannot go with it");
+  if (!a.update && !a.reason.empty())
+    throw ConfigError("regress: --reason says why a baseline is renewed; expected --update too");
+}
+
+MeasuredRuns Measured(const RegressArguments& a, const RegressSettings& settings,
+                      const GatePlaces& places) {
+  const std::vector<GatedExperiment> experiments = Selected(settings, a.only);
+  if (!a.stored) MeasureRepeats(experiments, places.output, places.shared);
+  return ReadRepeats(experiments, places.output);
+}
+
+void Renew(const RegressArguments& a, const GatePlaces& places, const MeasuredRuns& measured) {
+  if (!measured.failures.empty()) {
+    const auto& [run, reason] = *measured.failures.begin();
+    throw RunError(fmt::format("{}: not renewed, since a run failed: {}: {}",
+                               places.baseline.string(), run, reason));
+  }
+  if (measured.runs.empty()) {
+    throw Error(ExitCode::kNothingMeasured,
+                fmt::format("{}: not renewed: nothing measured", places.baseline.string()));
+  }
+  GateBaseline baseline;
+  if (fs::exists(places.baseline)) baseline.renewals = ReadBaseline(places.baseline).renewals;
+  baseline.date = NowUtc();
+  baseline.commit = GetBuildInfo().commit;
+  baseline.cpu = GetMachineInfo().cpu;
+  baseline.renewals.push_back({baseline.date, baseline.commit, a.reason});
+  baseline.runs = measured.runs;
+  WriteBaseline(places.baseline, baseline);
+  fmt::print("{}: renewed with {} runs\n", places.baseline.string(), baseline.runs.size());
+}
+
+// Of a selection, so that what was not asked for is not missed.
+GateBaseline SelectedBaseline(const GatePlaces& places, const std::string& only) {
+  GateBaseline baseline = ReadBaseline(places.baseline);
+  std::erase_if(baseline.runs, [&](const GatedRun& run) {
+    return run.experiment.find(only) == std::string::npos;
+  });
+  return baseline;
+}
+
+void WriteOccasion(const GatePlaces& places, const GateOccasion& occasion,
+                   const Judgement& judgement) {
+  WriteWholeFile(places.output / "regression.json", ToJson(occasion, judgement).dump(2) + "\n");
+  WriteWholeFile(places.output / "regression.xml", ToJunit(occasion, judgement));
+  const std::string text = ToMarkdown(occasion, judgement);
+  WriteWholeFile(places.output / "regression.md", text);
+  fmt::print("{}\nalso in {}/regression.{{md,json,xml}}\n", text, places.output.string());
+}
+
+void Regress(const RegressArguments& a) {
+  CheckArguments(a);
+  const auto settings = ReadSettingsFile<RegressSettings>(a.config);
+  const GatePlaces places = PlacesOf(a);
+  const std::string commit = GetBuildInfo().commit;
+  const GateBaseline baseline = a.update ? GateBaseline() : SelectedBaseline(places, a.only);
+  std::vector<HistoryEntry> history = ReadHistory(places.history);
+  MakeFolder(places.output);
+  const MeasuredRuns measured = Measured(a, settings, places);
+  if (a.update) return Renew(a, places, measured);
+
+  const Judgement judgement = Judge(baseline, measured, settings.tolerances, history, commit);
+  const GateOccasion occasion{settings.title,      NowUtc(), commit,  GetMachineInfo().cpu,
+                              settings.tolerances, baseline, measured};
+  WriteOccasion(places, occasion, judgement);
+  if (!a.stored) {
+    history.push_back({occasion.date, commit, static_cast<int>(judgement.Code()), measured.runs});
+    WriteHistory(places.history, history);
+  }
+  if (judgement.Code() != ExitCode::kSuccess)
+    throw Error(judgement.Code(), "regress: " + Headline(judgement));
+}
+
+}  // namespace
+
+void AddRegressCommand(CLI::App& app) {
+  const auto a = std::make_shared<RegressArguments>();
+  CLI::App* regress =
+      app.add_subcommand("regress", "Measure anew and hold accuracy and speed against a baseline");
+  regress->add_option("CONFIG", a->config, "what to measure: configs/nightly.json")->required();
+  regress->add_option("--baseline", a->baseline, "folder of baselines")->required();
+  regress->add_option("-o,--output", a->output, "folder of the results; out/NAME without");
+  regress->add_option("--only", a->only, "experiments whose name contains this");
+  regress->add_flag("--update", a->update, "renew the baseline with what is measured");
+  regress->add_option("--reason", a->reason, "why the baseline may be renewed");
+  regress->add_flag("--stored", a->stored, "judge what was measured last instead of measuring");
+  regress->footer(
+      "Exit codes: 0 within tolerance, 4 a run failed, 5 accuracy regressed, 6 speed regressed, "
+      "7 nothing measured or less than the baseline holds, 2 bad configuration, 3 damaged files.");
+  regress->callback([a] { Regress(*a); });
+}
+
+}  // namespace vitruvia

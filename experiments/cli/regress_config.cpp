@@ -1,0 +1,104 @@
+#include "experiments/cli/regress_config.h"
+
+#include <algorithm>
+
+#include "analysis/experiment_runs.h"
+#include "core/error.h"
+#include "experiments/plan/experiment_config.h"
+#include "experiments/run/runner.h"
+#include "experiments/studies/experiment_kinds.h"
+
+namespace vitruvia {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int kJobs = 1;  // speed is measured
+
+fs::path RepeatFolder(const fs::path& folder, const fs::path& experiment, int repeat) {
+  return folder / fmt::format("repeat-{}", repeat) / ConfigName(experiment);
+}
+
+// Only what an experiment left there may go.
+void RemoveMeasured(const fs::path& folder) {
+  if (!fs::exists(folder)) return;
+  if (!fs::is_regular_file(folder / "experiment.json")) {
+    throw RunError(fmt::format("{}: holds no experiment, so it is not removed", folder.string()));
+  }
+  fs::remove_all(folder);
+}
+
+int MostRepeats(const std::vector<GatedExperiment>& experiments) {
+  int most = 0;
+  for (const GatedExperiment& gated : experiments) most = std::max(most, gated.repeats);
+  return most;
+}
+
+void ReadExperimentRepeats(const GatedExperiment& gated, const fs::path& folder,
+                           MeasuredRuns& measured) {
+  const std::string name = ConfigName(gated.experiment);
+  std::vector<std::string> order;
+  std::map<std::string, std::vector<RunRecord>> repeats;
+  for (int repeat = 1; repeat <= gated.repeats; ++repeat) {
+    for (const ReportedRun& run :
+         ReadExperiment(RepeatFolder(folder, gated.experiment, repeat)).runs) {
+      if (run.record) {
+        if (repeats[run.run_id].empty()) order.push_back(run.run_id);
+        repeats[run.run_id].push_back(*run.record);
+      } else {
+        measured.failures[fmt::format("{}: {}", name, run.run_id)] =
+            fmt::format("repeat {}: {}", repeat, run.problem);
+      }
+    }
+  }
+  for (const std::string& run_id : order)
+    measured.runs.push_back(MakeGatedRun(name, repeats.at(run_id)));
+}
+
+}  // namespace
+
+void GatedExperiment::Describe(Fields& f) {
+  f.File("experiment", experiment, {.meaning = "experiment file", .required = true});
+  f.Integer("repeats", repeats,
+            {.meaning = "how often it is carried out; speed is the median over these",
+             .min = 1,
+             .max = 100});
+}
+
+void RegressSettings::Describe(Fields& f) {
+  f.Text("title", title, {.meaning = "what is watched over", .required = true});
+  f.Text("description", description, {.meaning = "more of that"});
+  f.List("experiments", experiments, {.meaning = "what is measured", .required = true});
+  f.Section("tolerances", tolerances, {.meaning = "what is still no regression"});
+}
+
+std::vector<GatedExperiment> Selected(const RegressSettings& settings, const std::string& only) {
+  std::vector<GatedExperiment> selected = settings.experiments;
+  std::erase_if(selected, [&](const GatedExperiment& gated) {
+    return ConfigName(gated.experiment).find(only) == std::string::npos;
+  });
+  return selected;
+}
+
+void MeasureRepeats(const std::vector<GatedExperiment>& experiments, const fs::path& folder,
+                    const fs::path& shared) {
+  for (int repeat = 1; repeat <= MostRepeats(experiments); ++repeat) {
+    for (const GatedExperiment& gated : experiments) {
+      if (repeat > gated.repeats) continue;
+      const fs::path repeat_folder = RepeatFolder(folder, gated.experiment, repeat);
+      const Experiment planned = PlanAnyExperiment(gated.experiment, repeat_folder,
+                                                   {shared / "sequences", shared / "learned"});
+      RemoveMeasured(repeat_folder);
+      WritePlan(planned, repeat_folder);
+      CarryOutRuns(planned.runs, kJobs, repeat_folder);
+      WriteSummary(repeat_folder);
+    }
+  }
+}
+
+MeasuredRuns ReadRepeats(const std::vector<GatedExperiment>& experiments, const fs::path& folder) {
+  MeasuredRuns measured;
+  for (const GatedExperiment& gated : experiments) ReadExperimentRepeats(gated, folder, measured);
+  return measured;
+}
+
+}  // namespace vitruvia

@@ -1,3 +1,0 @@
-#include "experiments/commands.h"
-
-int main(int argc, char** argv) { return vitruvia::RunCommandLine(argc, argv); }

@@ -1,0 +1,61 @@
+// Sweeps: values of settings from which an experiment file makes variants.
+//
+//   "sweep": {
+//     "design": "grid",
+//     "axes": [
+//       {"setting": "method.settings.fit.edge_px", "values": [1, 2, 4]},
+//       {"setting": "scene.view.camera.fx", "from": 71.25, "to": 285, "steps": 3, "scale": "log"}
+//     ]
+//   }
+//
+// Each variant of the experiment is carried out with each point of the sweep. The variant's name
+// says which: "default,fit.edge_px=2,scene.frames=30".
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "config/json_settings.h"
+
+namespace vitruvia {
+
+enum class SweepScale { kLinear, kLogarithmic };
+
+// The values that one setting takes: a list, or a range with both its ends.
+struct SweepAxis {
+  std::string setting;  // "scene.…" or "method.…", keys joined by dots
+  Json values = Json::array();
+  double from = 0.0, to = 0.0;
+  int steps = 0;  // 0: no range
+  SweepScale scale = SweepScale::kLinear;
+
+  void Describe(Fields& fields);
+  std::string Problem() const;
+};
+
+enum class SweepDesign {
+  kGrid,        // every combination of the axes' values
+  kOneAtATime,  // nothing changed, then each value of each axis alone
+};
+
+struct SweepSettings {
+  SweepDesign design = SweepDesign::kGrid;
+  std::vector<SweepAxis> axes;  // none: no sweep
+
+  void Describe(Fields& fields);
+  std::string Problem() const;
+};
+
+// Overrides (RFC 7386 merge patches), as a variant has them, and what they are called.
+struct SweepPoint {
+  std::string label;  // ",fit.edge_px=2": what a variant's name gains; "" where nothing is changed
+  Json scene = Json::object(), method = Json::object();
+};
+
+// In order: the last axis changes fastest. One point that changes nothing if there are no axes.
+std::vector<SweepPoint> PointsOf(const SweepSettings& sweep);
+
+// The values that an axis takes, in order.
+std::vector<Json> ValuesOf(const SweepAxis& axis);
+
+}  // namespace vitruvia

@@ -1,0 +1,15 @@
+// The kinds of experiments that `vitruvia run` carries out: an experiment file's "kind" decides.
+#pragma once
+
+#include <filesystem>
+
+#include "experiments/plan/planned_run.h"
+
+namespace vitruvia {
+
+// "tracking" (the default; experiment_config.h), "intrinsic_shape" (shape_study.h) or
+// "skinning_weights" (weight_study.h). Throws ConfigError before anything has run.
+Experiment PlanAnyExperiment(const std::filesystem::path& experiment_file,
+                             const std::filesystem::path& folder, const WorkFolders& work);
+
+}  // namespace vitruvia

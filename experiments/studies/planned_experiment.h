@@ -1,0 +1,20 @@
+// An experiment file as commands take it: where its output goes and what it plans.
+#pragma once
+
+#include <filesystem>
+
+#include "experiments/plan/planned_run.h"
+
+namespace vitruvia {
+
+struct PlannedExperiment {
+  Experiment experiment;
+  std::filesystem::path folder;  // of its output
+  std::filesystem::path root;    // below which other experiments' output may lie too
+};
+
+// The output goes to `output`, or to out/NAME if that is "". Writes nothing. Throws ConfigError.
+PlannedExperiment PlanForOutput(const std::filesystem::path& experiment_file,
+                                const std::filesystem::path& output);
+
+}  // namespace vitruvia

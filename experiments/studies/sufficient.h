@@ -1,0 +1,52 @@
+// The smallest model that a scene needs: parts are left out one after the other for as long as the
+// error stays within a margin of the full model's.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/plan/experiment_config.h"
+
+namespace vitruvia {
+
+struct SufficiencySettings {
+  std::string metric = "joint_error_mean_m";  // a key of the summary rows; less is better
+  double margin = 0.05;                       // share of the full model's error
+  int jobs = 1;                               // runs at a time
+};
+
+// What a model costs, against the full one on the same scenes and seeds.
+struct ModelCost {
+  double error = 0.0;        // mean of the metric
+  double error_ratio = 0.0;  // mean over pairs of a run's error by the full model's
+  double frame_ms = 0.0;     // mean of the runs' medians
+};
+
+// A round leaves out one part more than the round before, each of those left in turn.
+struct SufficiencyRound {
+  struct Trial {
+    std::string part;
+    ModelCost cost;
+    bool is_sufficient = false;
+  };
+  std::vector<Trial> trials;
+  std::string left_out;  // the part whose loss saves most; "" if the search ends here
+};
+
+struct Sufficiency {
+  ModelCost full, smallest;
+  std::vector<std::string> left_out;  // in order
+  std::vector<SufficiencyRound> rounds;
+};
+
+// The experiment's variants are the parts: each one's overrides leave something out. The full model
+// is the experiment without any of them. Runs are kept in `folder`, and found again by the next
+// call. ConfigError if there are no parts or runs lack the metric; RunError if a run fails.
+Sufficiency FindSufficient(const std::filesystem::path& experiment_file,
+                           const SufficiencySettings& settings,
+                           const std::filesystem::path& folder);
+
+Json ToJson(const Sufficiency& result, const SufficiencySettings& settings);
+
+}  // namespace vitruvia

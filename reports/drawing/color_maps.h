@@ -1,0 +1,36 @@
+// Colours that stand for numbers, and the palette of the report.
+#pragma once
+
+#include <vector>
+
+#include "reports/drawing/offscreen.h"
+
+namespace vitruvia {
+
+// Depth as in paper A's figure 7: red is near, blue is far. `share` is 0 at the nearest depth shown
+// and 1 at the farthest; values beyond are held.
+Color DepthColor(double share);
+
+// Error: pale is none, dark red is the scale's end and beyond. Lightness falls steadily, so the
+// order shows in grey and to the colour-blind alike. `share` is error / scale.
+Color ErrorColor(double share);
+
+// Where an error scale ends: a round number that holds 98 % of `errors`, and `smallest` at least.
+double ErrorScaleEnd(std::vector<double> errors, double smallest);
+
+// Of runs in plots: distinct to the colour-blind (Okabe and Ito's set without its yellow).
+inline constexpr std::array<Color, 7> kRunColors = {{{0x00, 0x72, 0xb2},
+                                                     {0xd5, 0x5e, 0x00},
+                                                     {0x00, 0x9e, 0x73},
+                                                     {0xcc, 0x79, 0xa7},
+                                                     {0xe6, 0x9f, 0x00},
+                                                     {0x56, 0xb4, 0xe9},
+                                                     {0x33, 0x33, 0x33}}};
+inline constexpr Color kEstimateColor{0x5b, 0xa3, 0xd9};
+inline constexpr Color kTruthColor{0xe8, 0x9b, 0x3c};
+// The skin by where it looks in the rest pose: a limb that is twisted shows its back.
+inline constexpr Color kFrontColor{0x8f, 0xbf, 0xe0};
+inline constexpr Color kBackColor{0xd0, 0x6a, 0x2c};
+inline constexpr Color kFailureColor{0xb0, 0x00, 0x20};
+
+}  // namespace vitruvia

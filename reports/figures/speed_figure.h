@@ -1,0 +1,19 @@
+// Speed against error: which variant is worth choosing.
+#pragma once
+
+#include "analysis/experiment_runs.h"
+#include "reports/drawing/plot.h"
+
+namespace vitruvia {
+
+// One point for each variant that has runs with frames: the median time of a frame with a bar to
+// the 95th percentile, and the mean error. A panel for each of two to four scenes, else one over
+// all scenes. The front is marked: variants that no other beats in both are discs on a dashed line,
+// the others rings.
+Figure MakeSpeedFigure(const ReportedExperiment& experiment);
+
+// What the papers say of a metric, as lines across a plot.
+std::vector<Reference> PublishedReferences(const ExperimentRecord& experiment,
+                                           const std::string& metric);
+
+}  // namespace vitruvia

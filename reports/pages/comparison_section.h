@@ -1,0 +1,16 @@
+// The report's tables of variants against each other.
+#pragma once
+
+#include <string>
+
+#include "analysis/experiment_runs.h"
+
+namespace vitruvia {
+
+// HTML; both "" where fewer than two variants have finished runs.
+// One row for each variant: means, and differences to the first.
+std::string VariantSection(const ReportedExperiment& experiment);
+// One row for each metric and variant, with pairs and verdicts.
+std::string ComparisonSection(const ReportedExperiment& experiment);
+
+}  // namespace vitruvia

@@ -1,0 +1,148 @@
+#include "reports/pages/page_assets.h"
+
+namespace vitruvia {
+
+const char* const kPageStyle = R"css(
+:root { --ink: #1d2125; --soft: #5a636b; --line: #dde1e4; --band: #f5f6f7; --accent: #005a8f;
+        --good: #00664b; --bad: #a3001d; }
+* { box-sizing: border-box; }
+html { -webkit-text-size-adjust: 100%; }
+body { margin: 0 auto; padding: 1.5rem 1.25rem 4rem; max-width: 1240px; color: var(--ink);
+       background: #fff; font: 16px/1.5 system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans",
+       "DejaVu Sans", sans-serif; font-variant-numeric: tabular-nums; }
+h1 { font-size: 1.9rem; line-height: 1.2; margin: .2rem 0 .5rem; letter-spacing: -.01em; }
+h2 { font-size: 1.35rem; margin: 2.8rem 0 .6rem; padding-top: .6rem; border-top: 2px solid var(--ink); }
+h3 { font-size: 1.05rem; margin: 1.6rem 0 .4rem; }
+h4 { font-size: .95rem; font-weight: 600; margin: 1.1rem 0 .4rem; }
+p { margin: .4rem 0 .8rem; max-width: 75ch; }
+.soft, figcaption { color: var(--soft); }
+.kicker { color: var(--soft); font-size: .9rem; margin: 0; }
+nav { display: flex; flex-wrap: wrap; gap: .3rem 1.2rem; padding: .6rem 0; font-size: .95rem; }
+a { color: var(--accent); }
+code, .run { font: .86em/1.4 ui-monospace, "SF Mono", Menlo, Consolas, "DejaVu Sans Mono", monospace; }
+.run { overflow-wrap: anywhere; }
+td.run { white-space: nowrap; overflow-wrap: normal; }
+.scroll { overflow-x: auto; -webkit-overflow-scrolling: touch; }
+table { border-collapse: collapse; font-size: .92rem; min-width: 100%; }
+th, td { padding: .38rem .7rem; text-align: left; vertical-align: baseline;
+         border-bottom: 1px solid var(--line); }
+td.n, th.n { text-align: right; white-space: nowrap; }
+thead th { font-weight: 600; border-bottom: 2px solid var(--ink); vertical-align: bottom; }
+tr.group th { background: var(--band); font-weight: 600; padding-top: .7rem; }
+tr.group small { display: block; font-weight: 400; color: var(--soft); font-size: .88rem; }
+.variants th.n { white-space: normal; }
+.variants small { display: block; font-size: .82em; font-weight: 400; }
+tr.total td { font-weight: 600; border-top: 2px solid var(--ink); }
+td.problem { color: var(--bad); overflow-wrap: anywhere; }
+.verdict { white-space: nowrap; font-weight: 600; }
+.verdict.met { color: var(--good); }
+.verdict.missed, .verdict.none { color: var(--bad); }
+th button { font: inherit; color: inherit; background: none; border: 0; padding: 0; cursor: pointer;
+            text-align: inherit; }
+th button:hover { color: var(--accent); text-decoration: underline; }
+th[aria-sort=ascending] button::after { content: " ▲"; }
+th[aria-sort=descending] button::after { content: " ▼"; }
+figure { margin: 1.2rem 0 0; }
+figcaption { font-size: .92rem; max-width: 80ch; }
+figcaption b { color: var(--ink); font-size: 1.02rem; display: block; }
+figure.plot svg { display: block; width: 100%; min-width: 540px; max-width: 900px; height: auto;
+                  margin-top: .4rem; }
+.cells { display: grid; gap: .5rem; grid-template-columns: repeat(7, minmax(0, 1fr)); }
+.cells figure { margin: 0; }
+.cells img { display: block; width: 100%; height: auto; border: 1px solid var(--line); }
+.cells figcaption { font-size: .78rem; line-height: 1.3; padding-top: .2rem; }
+.cards { display: grid; gap: 1.2rem 1.6rem; grid-template-columns: repeat(auto-fill, minmax(min(100%, 34rem), 1fr)); }
+.card { border-top: 2px solid var(--line); min-width: 0; }
+.card h3 { margin: .6rem 0 .2rem; }
+.card img { display: block; max-width: 100%; height: auto; }
+.card figure.plot svg { min-width: 0; }
+b.met { color: var(--good); }
+b.missed { color: var(--bad); }
+p.problem { color: var(--bad); }
+.bars { display: flex; flex-wrap: wrap; gap: .6rem 2rem; margin: .4rem 0 .6rem; font-size: .85rem; }
+.bar { width: 300px; max-width: 100%; }
+.bar i { display: block; height: 12px; border: 1px solid var(--line); }
+.bar span { display: flex; justify-content: space-between; }
+.key { display: inline-block; width: .8em; height: .8em; margin-right: .35em; }
+details { border-bottom: 1px solid var(--line); padding: .35rem 0; }
+summary { cursor: pointer; padding: .15rem 0; }
+details pre { background: var(--band); padding: .8rem; overflow-x: auto; font-size: .8rem; }
+dl { display: grid; grid-template-columns: max-content minmax(0, 1fr); gap: .2rem 1rem; font-size: .9rem; }
+dt { color: var(--soft); }
+dd { margin: 0; overflow-wrap: anywhere; }
+@media (max-width: 900px) { .cells { grid-template-columns: repeat(4, minmax(0, 1fr)); } }
+@media (max-width: 560px) {
+  body { padding: 1rem .9rem 3rem; font-size: 15px; }
+  h1 { font-size: 1.5rem; }
+  .cells { grid-template-columns: repeat(2, minmax(0, 1fr)); }
+  th, td { padding: .35rem .45rem; }
+  table { font-size: .85rem; }
+  dl { grid-template-columns: minmax(0, 1fr); gap: 0; }
+  dd { margin-bottom: .4rem; }
+  .compare, .compare tbody { display: block; }
+  .compare thead { display: none; }
+  .compare tr { display: grid; grid-template-columns: repeat(4, minmax(0, 1fr));
+                border-bottom: 1px solid var(--line); padding: .3rem 0; }
+  .compare th, .compare td { border: 0; padding: .1rem .3rem; text-align: left; }
+  .compare .run, .compare tr.group th { grid-column: 1 / -1; white-space: normal; overflow-wrap: anywhere; }
+  .compare tr.group { background: var(--band); }
+  .compare .problem { grid-column: span 2; }
+  .compare td.verdict { grid-column: 1 / -1; }
+  .variants, .variants tbody { display: block; }
+  .variants thead { display: none; }
+  .variants tr { display: grid; grid-template-columns: repeat(2, minmax(0, 1fr));
+                 border-bottom: 1px solid var(--line); padding: .4rem 0; }
+  .variants td { border: 0; padding: .1rem .2rem; text-align: left; white-space: normal; }
+  .variants td.run { grid-column: 1 / -1; font-weight: 600; white-space: normal;
+                     overflow-wrap: anywhere; }
+  .papers, .papers tbody { display: block; }
+  .papers thead { display: none; }
+  .papers tr { display: grid; grid-template-columns: repeat(3, minmax(0, 1fr));
+               border-bottom: 1px solid var(--line); padding: .5rem 0; }
+  .papers td { grid-column: 1 / -1; border: 0; padding: .05rem .2rem; text-align: left; }
+  .papers td:first-child { font-weight: 600; }
+  .papers td[data-label] { grid-column: auto; white-space: normal; }
+  .papers td[data-label]::before, .compare td[data-label]::before,
+  .variants td[data-label]::before { content: attr(data-label); display: block; color: var(--soft);
+                                    font-size: .82em; }
+}
+@media print {
+  body { max-width: none; padding: 0; font-size: 10pt; }
+  nav { display: none; }
+  .scroll { overflow: visible; }
+  figure, .strip, .card, tr { break-inside: avoid; }
+  figure.plot svg { min-width: 0; }
+  .sortable { font-size: 5.5pt; }
+  .variants { font-size: 7.5pt; }
+  .sortable th, .sortable td { padding: 1pt 1.5pt; white-space: normal; overflow-wrap: anywhere; }
+  h2, h3, h4 { break-after: avoid; }
+  .cells { grid-template-columns: repeat(7, minmax(0, 1fr)); }
+  * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
+}
+)css";
+
+const char* const kPageScript = R"js(
+for (const table of document.querySelectorAll("table.sortable")) {
+  table.querySelectorAll("thead button").forEach((button, column) => {
+    button.addEventListener("click", () => {
+      const header = button.parentElement;
+      const down = header.getAttribute("aria-sort") === "ascending";
+      for (const other of header.parentElement.children) other.removeAttribute("aria-sort");
+      header.setAttribute("aria-sort", down ? "descending" : "ascending");
+      const body = table.tBodies[0];
+      const value = row => row.cells[column] ? row.cells[column].dataset.value : undefined;
+      const order = (a, b) => {
+        if (value(a) === undefined || value(b) === undefined)
+          return (value(a) === undefined) - (value(b) === undefined);
+        const x = Number(value(a)), y = Number(value(b));
+        const by = Number.isNaN(x) || Number.isNaN(y) ? value(a).localeCompare(value(b)) : x - y;
+        return down ? -by : by;
+      };
+      body.append(...[...body.rows].sort(order));
+    });
+  });
+}
+addEventListener("beforeprint", () => document.querySelectorAll("details").forEach(d => d.open = true));
+)js";
+
+}  // namespace vitruvia

@@ -1,0 +1,248 @@
+#include "reports/pictures/pictures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "core/progress.h"
+#include "records/surface_strips.h"
+#include "reports/drawing/color_maps.h"
+#include "reports/drawing/mesh_view.h"
+#include "reports/pictures/picture_source.h"
+#include "reports/pictures/picture_window.h"
+#include "reports/pictures/surface_pictures.h"
+
+namespace vitruvia {
+namespace {
+
+constexpr double kSideViewTurn_deg = 60.0;  // of the second viewpoint, about the vertical
+constexpr double kMargin = 1.12;            // of a picture over the body in it
+constexpr double kOverlayOpacity = 0.72;    // of the reconstruction over the depth image
+constexpr double kSmallestErrorScale_m = 0.01;
+
+// Of what the camera has in its image: a limb out of view may be anywhere, and would leave no
+// colours for the rest.
+double ErrorScale(const std::vector<std::unique_ptr<PictureSource>>& sources) {
+  std::vector<double> all;
+  for (const auto& source : sources) {
+    if (source == nullptr) continue;
+    for (const PictureFrame& frame : source->frames()) {
+      for (std::size_t i = 0; i < frame.errors_m.size(); ++i) {
+        if (frame.in_view[i]) all.push_back(frame.errors_m[i]);
+      }
+    }
+  }
+  return ErrorScaleEnd(std::move(all), kSmallestErrorScale_m);
+}
+
+// Turns the body about the camera's vertical through its middle, which shows it as a camera would
+// that walked round it.
+std::vector<Vector3f> Turned(const std::vector<Vector3f>& points, const Vector3f& middle) {
+  const auto angle = static_cast<float>(kSideViewTurn_deg * std::numbers::pi / 180.0);
+  const Rigidf turn = RotationAbout<float>(ExpSo3<float>({0.0f, angle, 0.0f}), middle);
+  std::vector<Vector3f> turned;
+  turned.reserve(points.size());
+  for (const Vector3f& point : points) turned.push_back(turn * point);
+  return turned;
+}
+
+ColorImage Over(const ColorImage& front, ColorImage back, double opacity) {
+  for (std::size_t i = 0; i < back.pixels().size(); ++i) {
+    const ColorPixel& f = front.pixels()[i];
+    ColorPixel& b = back.pixels()[i];
+    const double a = opacity * f[3] / 255.0;
+    for (int c = 0; c < 3; ++c) {
+      b[c] = static_cast<std::uint8_t>(std::lround(a * f[c] + (1.0 - a) * b[c]));
+    }
+  }
+  return back;
+}
+
+std::vector<Color> ErrorColors(const std::vector<double>& errors_m, double scale_m) {
+  std::vector<Color> colors;
+  colors.reserve(errors_m.size());
+  for (const double error_m : errors_m) colors.push_back(ErrorColor(error_m / scale_m));
+  return colors;
+}
+
+// What every strip of a run shows round the body's middle, so that its pictures have one scale
+// however far away the body is.
+struct Framing {
+  double front_m = 0.0, side_m = 0.0;  // width and height
+};
+
+// Draws a run's strips.
+class StripPainter {
+ public:
+  StripPainter(const PictureSource& source, MeshView& view, RunPictures& run)
+      : source_(source), view_(view), run_(run), camera_(source.sequence().info().camera) {
+    FindFraming();
+    DepthRange range;
+    for (const PictureFrame& frame : source_.frames()) {
+      range.Include(source_.sequence().ReadDepth(frame.number));
+    }
+    run_.nearest_m = range.nearest_m();
+    run_.farthest_m = range.farthest_m();
+  }
+
+  PictureStrip Paint(const PictureFrame& frame) {
+    const FrameEstimate& tracked =
+        source_.estimate().frames()[static_cast<std::size_t>(frame.number)];
+    PictureStrip strip;
+    strip.frame = frame.number;
+    strip.label = fmt::format("frame {}", frame.number);
+    strip.sublabel = fmt::format("{:.2f} s", frame.number / source_.sequence().info().fps);
+    for (const double error_m : frame.errors_m) {
+      strip.error_mean_m += error_m / static_cast<double>(frame.errors_m.size());
+      strip.error_max_m = std::max(strip.error_max_m, error_m);
+    }
+    strip.note = fmt::format(
+        "{}{}{} · {}", Name(tracked.outcome), tracked.message.empty() ? "" : ": ", tracked.message,
+        source_.has_truth() ? fmt::format("mean error {:.1f} mm, maximum {:.1f} mm",
+                                          1e3 * strip.error_mean_m, 1e3 * strip.error_max_m)
+                            : "no true surface");
+    if (source_.has_truth()) {
+      PaintWithTruth(frame, strip.pictures);
+    } else {
+      PaintAlone(frame, strip.pictures);
+    }
+    return strip;
+  }
+
+ private:
+  void PaintWithTruth(const PictureFrame& frame, std::vector<ColorImage>& pictures) {
+    const auto truth = source_.sequence().ReadTrueVertices(frame.number);
+    const auto estimate = source_.estimate().ReadVertices(frame.number);
+    const Vector3f middle = Middle(truth);
+    const auto truth_side = Turned(truth, middle), estimate_side = Turned(estimate, middle);
+    const PictureWindow front =
+        Centered(Projected(camera_, truth), Pixels(camera_, framing_.front_m, middle));
+    const PictureWindow side =
+        Centered(Projected(camera_, truth_side), Pixels(camera_, framing_.side_m, middle));
+    const auto& estimate_triangles = source_.estimate().rest_mesh().triangles;
+    const auto& true_triangles = source_.sequence().true_rest_mesh().triangles;
+    const std::vector<Color> errors = ErrorColors(frame.errors_m, run_.error_scale_m);
+    const ShadedMesh shown_truth{&truth_side, &true_triangles, {kTruthColor}};
+    const ShadedMesh shown_estimate{&estimate_side, &estimate_triangles, {kEstimateColor}};
+
+    PaintDepth(frame, front, estimate, pictures);
+    pictures.push_back(OnWhite(view_.Draw(camera_, side, {shown_estimate})));
+    pictures.push_back(OnWhite(view_.Draw(camera_, side, {shown_truth})));
+    pictures.push_back(OnWhite(view_.Draw(camera_, side, {shown_truth, shown_estimate})));
+    pictures.push_back(
+        OnWhite(view_.Draw(camera_, front, {{&estimate, &estimate_triangles, errors}})));
+    pictures.push_back(
+        OnWhite(view_.Draw(camera_, side, {{&estimate_side, &estimate_triangles, errors}})));
+  }
+
+  // What the sensor saw, and the reconstruction over it.
+  void PaintDepth(const PictureFrame& frame, const PictureWindow& front,
+                  const std::vector<Vector3f>& estimate, std::vector<ColorImage>& pictures) {
+    const auto& triangles = source_.estimate().rest_mesh().triangles;
+    const ColorImage depth = DepthPicture(source_.sequence().ReadDepth(frame.number), front,
+                                          kPictureSize, run_.nearest_m, run_.farthest_m);
+    const ColorImage seen = view_.Draw(camera_, front, {{&estimate, &triangles, {kEstimateColor}}});
+    pictures.push_back(depth);
+    pictures.push_back(Over(seen, depth, kOverlayOpacity));
+  }
+
+  void PaintAlone(const PictureFrame& frame, std::vector<ColorImage>& pictures) {
+    const auto estimate = source_.estimate().ReadVertices(frame.number);
+    const Vector3f middle = Middle(estimate);
+    const auto from_side = Turned(estimate, middle);
+    const auto window = [&](const std::vector<Vector3f>& points, double extent_m) {
+      return Centered(Projected(camera_, points), Pixels(camera_, extent_m, middle));
+    };
+    PaintDepth(frame, window(estimate, framing_.front_m), estimate, pictures);
+    const auto& triangles = source_.estimate().rest_mesh().triangles;
+    pictures.push_back(OnWhite(view_.Draw(camera_, window(from_side, framing_.side_m),
+                                          {{&from_side, &triangles, {kEstimateColor}}})));
+  }
+
+  void FindFraming() {
+    for (const PictureFrame& frame : source_.frames()) {
+      const auto body = source_.has_truth() ? source_.sequence().ReadTrueVertices(frame.number)
+                                            : source_.estimate().ReadVertices(frame.number);
+      const Vector3f middle = Middle(body);
+      const double one_meter = Pixels(camera_, 1.0, middle) / kMargin;
+      const auto widen = [&](double& extent_m, const std::vector<Vector3f>& points) {
+        extent_m = std::max(extent_m, Projected(camera_, points).extent() / one_meter);
+      };
+      widen(framing_.front_m, body);
+      widen(framing_.side_m, Turned(body, middle));
+    }
+  }
+
+  const PictureSource& source_;
+  MeshView& view_;
+  RunPictures& run_;
+  PinholeCamera camera_;
+  Framing framing_;
+};
+
+}  // namespace
+
+const std::vector<std::string>& PictureTitles() {
+  static const std::string turned = fmt::format(", from {:g}° to the side", kSideViewTurn_deg);
+  static const std::vector<std::string> titles = {"depth",
+                                                  "reconstruction over depth",
+                                                  "reconstruction" + turned,
+                                                  "truth" + turned,
+                                                  "both" + turned,
+                                                  "error",
+                                                  "error" + turned};
+  return titles;
+}
+
+std::vector<std::string> PictureTitlesWithoutTruth() {
+  return {PictureTitles().begin(), PictureTitles().begin() + 3};
+}
+
+std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment) {
+  std::vector<RunPictures> all;
+  std::vector<std::unique_ptr<PictureSource>> sources;
+  int strips = 0;
+  for (const RunRecord* run : experiment.finished()) {
+    RunPictures pictures;
+    pictures.run_id = run->run_id;
+    pictures.keys = {{kEstimateColor, "reconstruction"},
+                     {kTruthColor, "truth; where both are drawn, the nearer shows"}};
+    if (HasSurfaceStrips(experiment.folder / run->run_id)) {
+      sources.push_back(nullptr);
+    } else {
+      sources.push_back(OpenPictureSource(experiment, *run, pictures.problem));
+      if (const PictureSource* source = sources.back().get()) {
+        pictures.titles = source->has_truth() ? PictureTitles() : PictureTitlesWithoutTruth();
+        strips += static_cast<int>(source->frames().size());
+      }
+    }
+    all.push_back(std::move(pictures));
+  }
+  const double error_scale_m = ErrorScale(sources);
+  MeshView view(kPictureSize, kPictureSize);
+  Progress progress("pictures", strips);
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    if (!all[r].problem.empty()) continue;
+    if (sources[r] == nullptr) {
+      DrawSurfaceStrips(experiment.folder / all[r].run_id, view, all[r]);
+      continue;
+    }
+    if (sources[r]->has_truth()) {
+      all[r].error_scale_m = error_scale_m;
+    } else {
+      all[r].keys = {{kEstimateColor, "reconstruction"}};
+    }
+    StripPainter painter(*sources[r], view, all[r]);
+    for (const PictureFrame& frame : sources[r]->frames()) {
+      all[r].strips.push_back(painter.Paint(frame));
+      progress.Advance();
+    }
+  }
+  return all;
+}
+
+}  // namespace vitruvia

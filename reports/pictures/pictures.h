@@ -1,0 +1,52 @@
+// Picture strips: what the camera saw, what the tracker made of it, and how far that is off.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "analysis/experiment_runs.h"
+#include "reports/drawing/canvas.h"
+
+namespace vitruvia {
+
+inline constexpr int kPictureSize = 300;  // pixels, width and height of each picture
+
+struct PictureStrip {
+  std::string label, sublabel;  // "frame 90", "3.00 s"
+  std::string note;             // how a tracker ended, with its message; errors
+  int frame = 0;
+  double error_mean_m = 0.0, error_max_m = 0.0;
+  std::vector<ColorImage> pictures;  // in the order of the run's titles
+};
+
+struct ColorKey {
+  Color color;
+  std::string meaning;
+};
+
+struct RunPictures {
+  std::string run_id;
+  std::string problem;                       // why there are none; "" when all is well
+  std::vector<std::string> titles;           // of a strip's pictures
+  double nearest_m = 0.0, farthest_m = 0.0;  // ends of the depth colours; both 0: no depth shown
+  double error_scale_m = 0.0;                // end of the error colours; 0: no errors shown
+  std::vector<ColorKey> keys;                // what plain colours mean
+  std::vector<PictureStrip> strips;
+};
+
+// Of a tracking run's strips; of one whose sequence has no true surface the first three.
+const std::vector<std::string>& PictureTitles();
+std::vector<std::string> PictureTitlesWithoutTruth();
+
+// One entry per finished run: at the experiment's picture frames that the run has, or, of a run
+// that left surfaces instead of frames (records/surface_strips.h), those. The error of a vertex is
+// its distance to the true point that it stands for, which is the closest one in the rest pose that
+// both surfaces share. All runs share one scale of errors, so that their colours compare.
+std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment);
+
+// Writes all strips of a run with their titles and colour bars to `stem`.png and `stem`.svg.
+void WritePictureSheet(DrawingWriter& writer, const std::filesystem::path& stem,
+                       const RunPictures& pictures);
+
+}  // namespace vitruvia

@@ -1,0 +1,15 @@
+// Runs of one sequence below each other, frame by frame: what differs between variants, and what
+// changes from frame to frame.
+#pragma once
+
+#include "reports/pictures/pictures.h"
+
+namespace vitruvia {
+
+// One entry per sequence that two or more finished runs have tracked; none unless the experiment
+// asks for them. A strip's pictures are the picture frames: first depth, then the truth, then each
+// run's reconstruction, all seen by the camera and held at the place of the truth. Skin that looks
+// to the front in the rest pose has one colour, skin that looks to the back another.
+std::vector<RunPictures> MakeSideBySide(const ReportedExperiment& experiment);
+
+}  // namespace vitruvia

@@ -1,0 +1,39 @@
+// The gate's memory: the baseline that runs are held against, and the history of what was measured.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "analysis/gated_run.h"
+
+namespace vitruvia {
+
+struct Renewal {
+  std::string date, commit, reason;
+};
+
+struct GateBaseline {
+  std::string date, commit, cpu;  // of the last renewal
+  std::vector<Renewal> renewals;  // all of them, the first one first
+  std::vector<GatedRun> runs;
+
+  const GatedRun* Find(const std::string& run_name) const;
+};
+
+// ConfigError if the file is missing, saying how a baseline is taken; DataError if it is damaged.
+GateBaseline ReadBaseline(const std::filesystem::path& file);
+void WriteBaseline(const std::filesystem::path& file, const GateBaseline& baseline);
+
+// What the gate found on one occasion.
+struct HistoryEntry {
+  std::string date, commit;
+  int exit_code = 0;
+  std::vector<GatedRun> runs;
+};
+
+// Oldest first; empty where there is no file. DataError if it is damaged.
+std::vector<HistoryEntry> ReadHistory(const std::filesystem::path& file);
+void WriteHistory(const std::filesystem::path& file, const std::vector<HistoryEntry>& history);
+
+}  // namespace vitruvia

@@ -1,0 +1,122 @@
+#include "analysis/gated_run.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/error.h"
+#include "math/statistics.h"
+#include "records/metric_value.h"
+
+namespace vitruvia {
+namespace {
+
+// What a run can get worse in; a run has those of its kind of experiment.
+constexpr std::array kAccuracyMetrics = {
+    "frames_failed",     "frames_lost",        "non_finite",       "l2_mean_m",
+    "l2_max_m",          "l2_mean_visible_m",  "l2_mean_hidden_m", "joint_error_mean_m",
+    "joint_error_max_m", "joints_within_10cm", "twist_rms_deg",    "jitter_rms_rad_s2",
+    "surface_mean_m",    "surface_p95_m",      "surface_max_m",    "surface_rmse_m",
+    "vertex_mean_m",     "height_error_m",     "weight_error_kg",  "scan_to_truth_mean_m",
+    "camera_error_max_m"};
+
+struct TimedSummary {
+  const char* name;
+  const char* metric;
+};
+constexpr std::array kTimedSummaries = {TimedSummary{kWholeFrame, "frame_ms_median"},
+                                        TimedSummary{"fit", "fit_ms"}};
+
+std::map<std::string, double> TimesOf(const RunRecord& run) {
+  std::map<std::string, double> times_ms;
+  for (const TimedSummary& timed : kTimedSummaries) {
+    const double ms = MetricValue(run, timed.metric);
+    if (!std::isnan(ms)) times_ms[timed.name] = ms;
+  }
+  for (const RunRecord::Step& step : run.steps) times_ms[step.name] = step.median_ms;
+  return times_ms;
+}
+
+void MeasureSpeed(std::span<const RunRecord> repeats, GatedRun& gated) {
+  std::map<std::string, std::vector<double>> ratios;
+  for (const RunRecord& run : repeats) {
+    const double calibration_ms = CalibrationOf(run);
+    if (std::isnan(calibration_ms) || calibration_ms <= 0.0) continue;
+    for (const auto& [name, ms] : TimesOf(run)) ratios[name].push_back(ms / calibration_ms);
+  }
+  for (const auto& [name, values] : ratios) {
+    const double median = Quantile(values, 0.5);
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    gated.speed[name] = median;
+    gated.speed_noise[name] = median > 0.0 ? 0.5 * (*most - *least) / median : 0.0;
+  }
+}
+
+bool IsSame(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+}  // namespace
+
+std::string GatedRun::name() const {
+  return fmt::format("{}: {}.{}.{}.s{}", experiment, variant, scene, method, seed);
+}
+
+GatedRun MakeGatedRun(const std::string& experiment, std::span<const RunRecord> repeats) {
+  Require(!repeats.empty(), "MakeGatedRun: {} has no repeat", experiment);
+  const RunRecord& first = repeats.front();
+  GatedRun gated;
+  gated.experiment = experiment;
+  gated.variant = first.variant;
+  gated.scene = first.scene;
+  gated.method = first.method;
+  gated.seed = first.seed;
+  gated.repeats = static_cast<int>(repeats.size());
+  for (const char* metric : kAccuracyMetrics) {
+    const double value = MetricValue(first, metric);
+    if (!std::isnan(value)) gated.accuracy[metric] = value;
+    for (const RunRecord& repeat : repeats) {
+      if (IsSame(MetricValue(repeat, metric), value)) continue;
+      gated.unsteady.emplace_back(metric);
+      break;
+    }
+  }
+  MeasureSpeed(repeats, gated);
+  std::vector<double> calibrations_ms;
+  for (const RunRecord& repeat : repeats) {
+    if (!std::isnan(CalibrationOf(repeat))) calibrations_ms.push_back(CalibrationOf(repeat));
+  }
+  if (!calibrations_ms.empty()) gated.calibration_ms = Quantile(calibrations_ms, 0.5);
+  return gated;
+}
+
+nlohmann::json ToJson(const GatedRun& run) {
+  return {{"experiment", run.experiment},
+          {"variant", run.variant},
+          {"scene", run.scene},
+          {"method", run.method},
+          {"seed", run.seed},
+          {"repeats", run.repeats},
+          {"accuracy", run.accuracy},
+          {"unsteady", run.unsteady},
+          {"speed", run.speed},
+          {"speed_noise", run.speed_noise},
+          {"calibration_ms", run.calibration_ms}};
+}
+
+GatedRun ParseGatedRun(const JsonNode& node) {
+  const auto number = [](const JsonNode& item) { return item.Number(); };
+  GatedRun run;
+  run.experiment = node.At("experiment").Text();
+  run.variant = node.At("variant").Text();
+  run.scene = node.At("scene").Text();
+  run.method = node.At("method").Text();
+  run.seed = node.At("seed").Integer();
+  run.repeats = node.At("repeats").Integer();
+  run.accuracy = node.At("accuracy").Map(number);
+  run.unsteady = node.At("unsteady").Texts();
+  run.speed = node.At("speed").Map(number);
+  run.speed_noise = node.At("speed_noise").Map(number);
+  run.calibration_ms = node.At("calibration_ms").Number();
+  return run;
+}
+
+}  // namespace vitruvia

@@ -1,0 +1,57 @@
+// The report's tables as plain text cells, and their CSV and LaTeX forms.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "analysis/experiment_runs.h"
+#include "analysis/metric_names.h"
+
+namespace vitruvia {
+
+enum class Verdict { kNoTarget, kMet, kMissed, kNoResult, kNotComparable };
+
+struct ComparedRun {
+  std::string run_id;
+  std::string ours, difference;  // printed; "–" where there is no number
+  Verdict verdict = Verdict::kNoTarget;
+  std::string problem;  // of a run without a record
+};
+
+// One published number and every run's beside it.
+struct Comparison {
+  Expectation expectation;
+  MetricName metric;
+  std::string paper, target;  // printed; target "" where there is none
+  std::vector<ComparedRun> runs;
+
+  bool more_is_better() const { return !std::isnan(expectation.at_least); }
+};
+std::vector<Comparison> CompareWithPapers(const ReportedExperiment& experiment);
+
+// All summary rows. Columns: those every report has first, then the others by name.
+struct SummaryTable {
+  std::vector<MetricName> columns;
+  struct Row {
+    std::string run_id, problem;
+    std::vector<nlohmann::json> cells;  // as stored; null where the run has none
+  };
+  std::vector<Row> rows;
+};
+SummaryTable MakeSummaryTable(const ReportedExperiment& experiment);
+
+// Paper A's table 1 beside a run's steps. NaN where the paper has none.
+struct StepRow {
+  std::string name;
+  double paper_per_iteration_ms, paper_per_frame_ms;
+  double median_ms, p95_ms, max_ms;
+};
+std::vector<StepRow> CompareSteps(const RunRecord& run);
+
+// A row per run, numbers as stored, then for each published number paper and difference.
+std::string ToCsv(const ReportedExperiment& experiment);
+// Two tabulars: the comparison with the papers, and all runs with the metrics of the comparison.
+std::string ToLatex(const ReportedExperiment& experiment);
+
+}  // namespace vitruvia

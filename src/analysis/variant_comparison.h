@@ -1,0 +1,72 @@
+// Variants against each other: over the runs of one experiment, or of two folders.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/experiment_runs.h"
+#include "analysis/metric_names.h"
+#include "analysis/paired_comparison.h"
+
+namespace vitruvia {
+
+// All finished runs of one variant with one method.
+struct Contender {
+  std::string name;  // variant, method or "method/variant": what tells it from the others
+  std::vector<const RunRecord*> runs;
+};
+// In the order of the grid. They point into the experiment.
+std::vector<Contender> ContendersOf(const ReportedExperiment& experiment);
+
+// One metric of one contender against the reference, paired by scene, seed and repeat.
+struct VariantComparison {
+  MetricName metric;
+  std::string reference, other;
+  int unpaired = 0;  // runs of either side without a partner: failed, missing, or of another grid
+  SampleSpread reference_spread, other_spread;  // over the pairs
+  PairedComparison comparison;
+};
+
+// Every contender against `reference`; "": the first. `metrics` empty: those that matter most of
+// those that there are. A contender without any pair in a metric has no row for it. ConfigError if
+// there is nothing to compare with, or no contender or metric of a name.
+std::vector<VariantComparison> CompareVariants(const ReportedExperiment& experiment,
+                                               const std::string& reference,
+                                               const std::vector<std::string>& metrics);
+
+// Runs of `other` against the same runs of `reference`: those of one contender's name, scene, seed
+// and repeat. One row for each contender and metric, and for all together ("all") if there are
+// several. ConfigError if no run has a partner.
+std::vector<VariantComparison> CompareExperiments(const ReportedExperiment& reference,
+                                                  const ReportedExperiment& other,
+                                                  const std::vector<std::string>& metrics);
+
+// An experiment in one row for each contender: means over its scenes, seeds and repeats.
+struct VariantSummary {
+  struct Cell {
+    SampleSpread spread;  // over all its finished runs that have the metric
+    // Against the reference, over pairs; nothing for the reference itself or without a pair.
+    std::optional<VariantComparison> difference;
+  };
+  std::string name;
+  int runs = 0;
+  std::vector<Cell> cells;  // one for each metric of the table
+};
+struct VariantTable {
+  std::vector<MetricName> metrics;   // the few that a reader looks at first
+  std::vector<VariantSummary> rows;  // the first is the reference
+};
+VariantTable TabulateVariants(const ReportedExperiment& experiment);
+// { "confidence", "reference", "rows": [ { "variant", "runs", "metrics": { … } } ] }
+nlohmann::json ToJson(const VariantTable& table);
+
+// "lower (better)", "higher (worse)", "no difference", "too few pairs".
+std::string VerdictText(const VariantComparison& row);
+// The mean difference as a percentage of the reference's mean, signed; "–" where that is 0.
+std::string RelativeText(const VariantComparison& row);
+
+nlohmann::json ToJson(const std::vector<VariantComparison>& rows);
+std::string ToCsv(const std::vector<VariantComparison>& rows);
+
+}  // namespace vitruvia

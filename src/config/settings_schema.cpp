@@ -1,0 +1,176 @@
+#include "config/settings_schema.h"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "config/settings_text.h"
+
+namespace vitruvia {
+namespace {
+
+constexpr const char* kDraft = "https://json-schema.org/draft/2020-12/schema";
+
+enum class Conditional { kLeftOut, kIncluded };
+
+// What a person hovering over a key wants to read.
+std::string Tooltip(const About& about) {
+  std::string text = about.meaning;
+  if (*about.unit != '\0') text += fmt::format(" [{}]", about.unit);
+  if (about.origin != Origin::kInput || *about.source != '\0') {
+    text += fmt::format(" ({}{}{})", Name(about.origin), *about.source == '\0' ? "" : "; ",
+                        about.source);
+  }
+  return text;
+}
+
+Json NumberType(const char* type, const About& about) {
+  Json json = {{"type", type}};
+  if (std::isfinite(about.min)) json["minimum"] = about.min;
+  if (std::isfinite(about.max)) json["maximum"] = about.max;
+  return json;
+}
+
+Json ListOf(Json item) { return {{"type", "array"}, {"items", std::move(item)}}; }
+
+Json EmptyObject() {
+  return {{"type", "object"},
+          {"properties", Json::object()},
+          {"required", Json::array()},
+          {"additionalProperties", false}};
+}
+
+// Fields that depend on a choice are all there for one kind of walk and all absent for the other:
+// the former knows what may stand in a file, the latter what must.
+class SchemaWriter final : public Fields {
+ public:
+  explicit SchemaWriter(Conditional conditional) : conditional_(conditional) {
+    levels_.push_back(EmptyObject());
+  }
+  Json Take() { return std::move(levels_.back()); }
+
+  void Number(const char* key, double& value, const About& about) override {
+    Json json = NumberType("number", about);
+    if (std::isfinite(value)) json["default"] = value;
+    Put(key, std::move(json), about);
+  }
+  void Integer(const char* key, int& value, const About& about) override {
+    Json json = NumberType("integer", about);
+    json["default"] = value;
+    Put(key, std::move(json), about);
+  }
+  void Flag(const char* key, bool& value, const About& about) override {
+    Put(key, {{"type", "boolean"}, {"default", value}}, about);
+  }
+  void Text(const char* key, std::string& value, const About& about) override {
+    Put(key, {{"type", "string"}, {"default", value}}, about);
+  }
+  void File(const char* key, std::filesystem::path&, const About& about) override {
+    Put(key, {{"type", "string"}}, about);
+  }
+  void Numbers(const char* key, std::span<double> values, const About& about) override {
+    Json json = ListOf(NumberType("number", about));
+    json["minItems"] = json["maxItems"] = values.size();
+    json["default"] = std::vector<double>(values.begin(), values.end());
+    Put(key, std::move(json), about);
+  }
+  void FreeJson(const char* key, nlohmann::json& value, const About& about) override {
+    Json json = Json::object();
+    if (value.is_object()) json["type"] = "object";
+    Put(key, std::move(json), about);
+  }
+  void Texts(const char* key, std::vector<std::string>&, const About& about) override {
+    Put(key, ListOf({{"type", "string"}}), about);
+  }
+  void Files(const char* key, std::vector<std::filesystem::path>&, const About& about) override {
+    Put(key, ListOf({{"type", "string"}}), about);
+  }
+  void Integers(const char* key, std::vector<int>&, const About& about) override {
+    Put(key, ListOf(NumberType("integer", about)), about);
+  }
+  bool Applies(bool) override { return conditional_ == Conditional::kIncluded; }
+
+ protected:
+  void ChoiceIndex(const char* key, std::size_t& index, std::span<const char* const> names,
+                   const About& about) override {
+    Json json = {{"enum", std::vector<std::string>(names.begin(), names.end())}};
+    json["default"] = names[index];
+    Put(key, std::move(json), about);
+  }
+  bool BeginSection(const char* key, const About& about) override {
+    open_.push_back({key, about});
+    levels_.push_back(EmptyObject());
+    return true;
+  }
+  void EndSection() override {
+    Close([](Json section) { return section; });
+  }
+  bool BeginList(const char* key, std::size_t& count, const About& about) override {
+    open_.push_back({key, about});
+    levels_.push_back(EmptyObject());
+    count = 1;
+    return true;
+  }
+  void BeginItem(std::size_t) override {}
+  void EndItem() override {}
+  void EndList() override { Close(ListOf); }
+
+ private:
+  template <class Make>
+  void Close(Make make) {
+    Json level = std::move(levels_.back());
+    levels_.pop_back();
+    const auto [key, about] = open_.back();
+    open_.pop_back();
+    Put(key.c_str(), make(std::move(level)), about);
+  }
+
+  void Put(const char* key, Json schema, const About& about) {
+    schema["description"] = Tooltip(about);
+    levels_.back()["properties"][key] = std::move(schema);
+    if (about.required) levels_.back()["required"].push_back(key);
+  }
+
+  Conditional conditional_;
+  std::vector<Json> levels_;
+  std::vector<std::pair<std::string, About>> open_;
+};
+
+Json Walked(Conditional conditional, void (*visit)(Fields&)) {
+  SchemaWriter writer(conditional);
+  visit(writer);
+  return writer.Take();
+}
+
+// Of what both walks know, only what the one without conditional fields requires is required.
+void TakeRequired(Json& all, const Json& unconditional) {
+  if (all.contains("required")) all["required"] = unconditional.at("required");
+  if (all.contains("items")) {
+    TakeRequired(all["items"], unconditional.at("items"));
+    return;
+  }
+  if (!all.contains("properties")) return;
+  for (auto& [key, schema] : all["properties"].items()) {
+    const auto known = unconditional.at("properties").find(key);
+    if (known != unconditional.at("properties").end()) TakeRequired(schema, *known);
+  }
+}
+
+}  // namespace
+
+Json SettingsSchema(void (*visit)(Fields&)) {
+  Json schema = Walked(Conditional::kIncluded, visit);
+  TakeRequired(schema, Walked(Conditional::kLeftOut, visit));
+  return schema;
+}
+
+Json ConfigSchema(const std::string& title, Json settings) {
+  settings["$schema"] = kDraft;
+  settings["title"] = title;
+  settings["properties"][kSchemaKey] = {{"type", "string"},
+                                        {"description", "where this schema lies, for editors"}};
+  return settings;
+}
+
+}  // namespace vitruvia

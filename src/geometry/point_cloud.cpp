@@ -1,0 +1,41 @@
+#include "geometry/point_cloud.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vitruvia {
+
+void CloudFromDepth(const DepthImage& depth, const PinholeCamera& camera, int stride,
+                    float max_depth_m, PointCloud& cloud) {
+  cloud.points.clear();
+  cloud.pixels.clear();
+  for (int v = 0; v < depth.height(); v += stride) {
+    for (int u = 0; u < depth.width(); u += stride) {
+      const float z = depth(u, v);
+      if (!(z > 0.0f && z <= max_depth_m)) continue;
+      cloud.points.push_back(camera.Unproject(static_cast<float>(u), static_cast<float>(v), z));
+      cloud.pixels.push_back(v * depth.width() + u);
+    }
+  }
+}
+
+float SampleDepth(const DepthImage& depth, float u, float v, float smooth_within_m) {
+  const auto last_u = static_cast<float>(depth.width() - 1);
+  const auto last_v = static_cast<float>(depth.height() - 1);
+  if (!(u >= -0.5f && v >= -0.5f && u < last_u + 0.5f && v < last_v + 0.5f)) return 0.0f;
+  const float left = std::floor(u), top = std::floor(v);
+  if (left >= 0.0f && top >= 0.0f && left < last_u && top < last_v) {
+    const int i = static_cast<int>(left), j = static_cast<int>(top);
+    const float z00 = depth(i, j), z10 = depth(i + 1, j);
+    const float z01 = depth(i, j + 1), z11 = depth(i + 1, j + 1);
+    const float low = std::min({z00, z10, z01, z11}), high = std::max({z00, z10, z01, z11});
+    if (low > 0.0f && high - low <= smooth_within_m) {
+      const float x = u - left, y = v - top;
+      return (1.0f - y) * ((1.0f - x) * z00 + x * z10) + y * ((1.0f - x) * z01 + x * z11);
+    }
+  }
+  const float z = depth(static_cast<int>(u + 0.5f), static_cast<int>(v + 0.5f));
+  return z > 0.0f ? z : 0.0f;
+}
+
+}  // namespace vitruvia

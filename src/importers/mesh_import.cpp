@@ -1,0 +1,190 @@
+#include "importers/mesh_import.h"
+
+#include <algorithm>
+
+#include <Eigen/QR>
+
+#include "config/json_settings.h"
+#include "core/build_info.h"
+#include "core/error.h"
+#include "core/progress.h"
+#include "geometry/mesh_io.h"
+#include "geometry/surface_map.h"
+#include "geometry/zbuffer.h"
+#include "sequence/joint_visibility.h"
+#include "sequence/sequence.h"
+
+namespace vitruvia {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr float kNearestToCamera_m = 0.1f;
+
+std::vector<fs::path> FrameFiles(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension == ".obj" || extension == ".ply" || extension == ".off")
+      files.push_back(entry.path());
+  }
+  if (files.empty())
+    throw DataError(fmt::format("{}: expected a folder of .obj, .ply or .off files, found none",
+                                folder.string()));
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+TriangleMesh ReadScaled(const fs::path& file, double unit_m) {
+  TriangleMesh mesh = ReadMesh(file);
+  for (Vector3f& v : mesh.vertices) v *= static_cast<float>(unit_m);
+  return mesh;
+}
+
+// Where the subject's joints are, given the true surface in some pose: the affine motions A_b of
+// the bones that come nearest to Σ_b w_vb A_b x_v = y_v over all vertices v of the template (x_v at
+// rest, y_v now, w_vb its skinning weights), by linear least squares. Exact for a linearly skinned
+// truth.
+class JointFinder {
+ public:
+  JointFinder(const BodyModel& subject, const TriangleMesh& true_rest)
+      : subject_(subject),
+        on_truth_(ClosestSurfacePoints(subject.rest.vertices, true_rest)),
+        triangles_(true_rest.triangles),
+        rows_(Rows(subject)),
+        normal_(rows_.transpose() * rows_) {
+    if (normal_.rank() < kUnknowns) {
+      throw DataError(
+          fmt::format("subject: its weights leave the motion of a bone open (rank {} of {}), so "
+                      "that the joints "
+                      "cannot be found on the meshes",
+                      normal_.rank(), kUnknowns));
+    }
+  }
+
+  std::vector<Vector3d> Find(const std::vector<Vector3f>& true_vertices) const {
+    Eigen::MatrixX3d places(rows_.rows(), 3);
+    for (std::size_t v = 0; v < on_truth_.size(); ++v) {
+      places.row(static_cast<Eigen::Index>(v)) =
+          Evaluate(on_truth_[v], true_vertices.data(), triangles_).cast<double>().transpose();
+    }
+    const Eigen::MatrixX3d motions = normal_.solve(rows_.transpose() * places);
+    std::vector<Vector3d> joints;
+    for (int b = 0; b < kBoneCount; ++b) {
+      const Eigen::RowVector4d rest = subject_.skeleton.joints[b].homogeneous().transpose();
+      joints.emplace_back((rest * motions.middleRows<4>(4 * b)).transpose());
+    }
+    return joints;
+  }
+
+ private:
+  static constexpr int kUnknowns = 4 * kBoneCount;  // per coordinate
+
+  static Eigen::MatrixXd Rows(const BodyModel& subject) {
+    const std::vector<Vector3f>& rest = subject.rest.vertices;
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rest.size()), kUnknowns);
+    for (std::size_t v = 0; v < rest.size(); ++v) {
+      for (std::size_t k = 0; k < subject.weights.weights[v].size(); ++k) {
+        const double weight = subject.weights.weights[v][k];
+        rows.block<1, 4>(static_cast<Eigen::Index>(v), 4 * subject.weights.bones[v][k]) +=
+            weight * rest[v].cast<double>().homogeneous().transpose();
+      }
+    }
+    return rows;
+  }
+
+  const BodyModel& subject_;
+  std::vector<SurfacePoint> on_truth_;
+  std::vector<Triangle> triangles_;
+  Eigen::MatrixXd rows_;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> normal_;
+};
+
+// The vertices of one frame, camera frame.
+std::vector<Vector3f> ReadFrame(const fs::path& file, const MeshSequenceSettings& settings,
+                                const TriangleMesh& rest) {
+  TriangleMesh mesh = ReadScaled(file, settings.unit_m);
+  if (mesh.vertices.size() != rest.vertices.size() || mesh.triangles != rest.triangles) {
+    throw DataError(fmt::format(
+        "{}: expected the {} vertices and {} triangles of the rest mesh in their order, got {} and "
+        "{}{}",
+        file.string(), rest.vertices.size(), rest.triangles.size(), mesh.vertices.size(),
+        mesh.triangles.size(),
+        mesh.triangles.size() == rest.triangles.size() ? " (other triangles)" : ""));
+  }
+  if (settings.frame == MeshFrame::kSubject) {
+    const Rigidf camera_from_subject = CameraFromSubject(settings.view).Cast<float>();
+    for (Vector3f& v : mesh.vertices) v = camera_from_subject * v;
+  }
+  for (const Vector3f& v : mesh.vertices) {
+    if (v.z() >= kNearestToCamera_m) continue;
+    throw DataError(
+        fmt::format("{}: a vertex is {:.2f} m in front of the camera, expected at least "
+                    "{} (is `frame` or `unit_m` right?)",
+                    file.string(), v.z(), kNearestToCamera_m));
+  }
+  return mesh.vertices;
+}
+
+SequenceInfo InfoOf(const MeshSequenceSettings& settings, int frames) {
+  SequenceInfo info;
+  info.camera = settings.view.camera;
+  info.depth_unit_m = settings.sensor.depth_unit_m;
+  info.fps = settings.fps;
+  info.frames = frames;
+  for (const BoneInfo& bone : Bones()) info.joints.emplace_back(bone.joint);
+  info.provenance = {
+      {"made_by", "vitruvia import"}, {"import", WriteSettings(settings)}, {"build", Provenance()}};
+  return info;
+}
+
+}  // namespace
+
+void MeshSequenceSettings::Describe(Fields& f) {
+  f.Text("title", title, {.meaning = "what the sequence shows"});
+  f.File("meshes", meshes,
+         {.meaning = "folder of .obj, .ply or .off files, one for each frame in the order of their "
+                     "names",
+          .required = true});
+  f.File("subject", subject,
+         {.meaning = "folder of the subject: mesh.ply, subject.json, weights.bin (FORMAT.md)",
+          .required = true});
+  f.File("rest", rest,
+         {.meaning = "the same mesh in the subject's rest pose, subject frame", .required = true});
+  f.Choice("frame", frame, {{"subject", MeshFrame::kSubject}, {"camera", MeshFrame::kCamera}},
+           {.meaning = "frame of reference of the frames' meshes: subject (y up, front to +z) or "
+                       "camera (y down, z away)"});
+  f.Number("unit_m", unit_m,
+           {.meaning = "length that 1 stands for in frames and rest mesh",
+            .unit = "m",
+            .min = 1e-6,
+            .max = 1e3});
+  f.Section("view", view, {.meaning = "the camera; its place counts only for the subject frame"});
+  f.Section("sensor", sensor, {.meaning = "what the camera makes of true depth"});
+  f.Number("fps", fps, {.meaning = "frames per second", .unit = "1/s", .min = 1e-3, .max = 1e4});
+  f.Integer("seed", seed, {.meaning = "seed of the sensor's noise", .min = 0, .max = 1e9});
+}
+
+void ImportMeshSequence(const MeshSequenceSettings& settings, const fs::path& folder) {
+  const std::vector<fs::path> files = FrameFiles(settings.meshes);
+  const BodyModel subject = ReadBodyModel(settings.subject);
+  const TriangleMesh rest = ReadScaled(settings.rest, settings.unit_m);
+  const PinholeCamera& camera = settings.view.camera;
+  const JointFinder joints(subject, rest);
+  ZBuffer zbuffer(camera);
+  const auto count = static_cast<int>(files.size());
+  SequenceWriter writer(folder, InfoOf(settings, count), subject, rest);
+  Progress progress("import " + folder.filename().string(), count);
+  for (int i = 0; i < count; ++i) {
+    const std::vector<Vector3f> vertices = ReadFrame(files[i], settings, rest);
+    const DepthImage& depth = zbuffer.Render(vertices, rest.triangles);
+    const std::vector<Vector3d> found = joints.Find(vertices);
+    RandomStream noise(static_cast<std::uint64_t>(settings.seed), fmt::format("sensor/{}", i));
+    writer.Append(Measure(depth, camera, settings.sensor, noise), vertices,
+                  {found, VisibleJoints(found, depth, camera)});
+    progress.Advance();
+  }
+  writer.Finish();
+}
+
+}  // namespace vitruvia

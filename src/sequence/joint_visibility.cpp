@@ -1,0 +1,35 @@
+#include "sequence/joint_visibility.h"
+
+#include <cmath>
+
+#include "body/skeleton.h"
+
+namespace vitruvia {
+
+double JointBelowSkin(int bone) {
+  for (const BoneId trunk : {BoneId::kPelvis, BoneId::kAbdomen, BoneId::kChest}) {
+    if (bone == static_cast<int>(trunk)) return kTrunkJointBelowSkinM;
+  }
+  return kLimbJointBelowSkinM;
+}
+
+bool SeesJoint(const Vector3<double>& joint_in_camera, double below_skin_m, const DepthImage& depth,
+               const PinholeCamera& camera) {
+  if (!camera.InView(joint_in_camera)) return false;
+  const Eigen::Vector2d pixel = camera.Project(joint_in_camera);
+  const float skin =
+      depth(static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y())));
+  return skin == 0.0f || joint_in_camera.z() - skin <= below_skin_m;
+}
+
+std::vector<bool> VisibleJoints(const std::vector<Vector3<double>>& joints_in_camera,
+                                const DepthImage& depth, const PinholeCamera& camera) {
+  std::vector<bool> visible;
+  for (std::size_t i = 0; i < joints_in_camera.size(); ++i) {
+    visible.push_back(
+        SeesJoint(joints_in_camera[i], JointBelowSkin(static_cast<int>(i)), depth, camera));
+  }
+  return visible;
+}
+
+}  // namespace vitruvia

@@ -1,0 +1,30 @@
+// Whether a depth camera sees a joint, which lies inside the body.
+#pragma once
+
+#include <vector>
+
+#include "geometry/camera.h"
+#include "geometry/image.h"
+#include "math/rigid.h"
+
+namespace vitruvia {
+
+// A joint sits inside the body. Skin up to this much nearer to the camera than the joint counts as
+// the joint's own; anything nearer than that hides it. Measured on bodies of 60 to 110 kg seen from
+// all sides: a limb's own skin lies up to 0.08 m before its joints, a trunk's up to 0.20 m.
+inline constexpr double kLimbJointBelowSkinM = 0.15;
+inline constexpr double kTrunkJointBelowSkinM = 0.22;  // pelvis, waist and chest
+
+// The one of the two for the joint of a bone (body/skeleton.h); a limb's for any other number.
+double JointBelowSkin(int bone);
+
+// Whether the camera sees a joint: it projects into the image, and the depth rendered there is at
+// most below_skin_m in front of it.
+bool SeesJoint(const Vector3<double>& joint_in_camera, double below_skin_m, const DepthImage& depth,
+               const PinholeCamera& camera);
+
+// The same for the skeleton's joints, in the order of BoneId.
+std::vector<bool> VisibleJoints(const std::vector<Vector3<double>>& joints_in_camera,
+                                const DepthImage& depth, const PinholeCamera& camera);
+
+}  // namespace vitruvia

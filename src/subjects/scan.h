@@ -1,0 +1,78 @@
+// A scan from start to end: frames from a scene or a stored sequence, fused, checked and compared
+// with the truth where there is one.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "body/body_model.h"
+#include "config/json_settings.h"
+#include "learning/scan/body_check.h"
+#include "learning/scan/scan_fusion.h"
+#include "synth/scan/scan_scene.h"
+
+namespace vitruvia {
+
+enum class ScanSource { kScene, kSequence };
+
+struct ScanSettings {
+  std::string title;
+  ScanSource source = ScanSource::kScene;
+  ScanSceneSettings scene;         // of source kScene
+  std::filesystem::path sequence;  // of source kSequence: a folder as `vitruvia synth` writes it
+  ViewSettings first_view;         // of source kSequence: where its first frame was taken from;
+                                   // the camera is the sequence's
+  ScanFusionSettings fusion;
+  BodyCheckSettings check;
+
+  void Describe(Fields& fields);
+};
+
+// A config file as `vitruvia scan` takes it, with overrides applied.
+ScanSettings ReadScanSettings(const std::filesystem::path& file,
+                              const Json& overrides = Json::object());
+
+struct DistanceSummary {
+  double mean_m = 0.0, p95_m = 0.0, max_m = 0.0;
+};
+// Of each vertex of `from` to the nearest point of the surface `to`.
+DistanceSummary SurfaceDistance(const TriangleMesh& from, const TriangleMesh& to);
+
+struct CameraPathError {
+  double rotation_mean_deg = 0.0, rotation_max_deg = 0.0;
+  double translation_mean_m = 0.0, translation_max_m = 0.0;  // of the camera's centre
+};
+
+// What a scene knows and a scan does not.
+struct ScanTruth {
+  BodyModel body;        // in the T-pose
+  TriangleMesh surface;  // as it stood at the first frame; subject frame
+  CameraPathError path;
+  DistanceSummary scan_to_truth, truth_to_scan;
+};
+
+struct ScanResult {
+  ScanSurface surface;             // .mesh: subject frame, metres
+  std::vector<FusedFrame> frames;  // those used
+  double render_ms = 0.0;          // all frames; making or reading them
+  double fuse_ms = 0.0;            // all frames
+  double extract_ms = 0.0;
+  std::optional<ScanTruth> truth;  // of source kScene
+};
+
+// Fuses all frames, shows progress and can be interrupted. RunError naming the frame if the camera
+// is lost; DataError if there is no body, more than one, or a hole for a head.
+//
+// The subject frame is known from the first camera's place relative to the floor: the scene's, or
+// first_view. Alignment afterwards is relative to it.
+ScanResult Scan(const ScanSettings& settings);
+// The scene's scan of that person instead of the scene's own.
+ScanResult ScanPerson(const ScanSettings& settings, const BodyModel& person);
+
+// What scan.json holds.
+Json ScanRecord(const ScanSettings& settings, const ScanResult& result);
+
+}  // namespace vitruvia

@@ -1,0 +1,82 @@
+#include "tracking/classification.h"
+
+#include <cmath>
+
+namespace vitruvia {
+
+namespace {
+
+// Whether some pixel within edge_px of (u, v) holds a depth near z.
+bool IsExplained(const DepthImage& depth, int u, int v, float z, const NearnessSettings& nearness) {
+  for (int y = v - nearness.edge_px; y <= v + nearness.edge_px; ++y) {
+    for (int x = u - nearness.edge_px; x <= u + nearness.edge_px; ++x) {
+      if (!depth.Contains(x, y)) continue;
+      const float there = depth(x, y);
+      if (there > 0.0f && std::abs(there - z) < nearness.depth_m) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+void ClassifyVertices(const std::vector<Vector3f>& vertices, const std::vector<int>& visible,
+                      const DepthImage& captured, const PinholeCamera& camera,
+                      const NearnessSettings& nearness, VertexClasses& classes) {
+  classes.near_surface.clear();
+  classes.observed_depth.clear();
+  classes.elsewhere.clear();
+  for (const int i : visible) {
+    const Vector3f& vertex = vertices[i];
+    const auto pixel = camera.Project(vertex);
+    const float z = SampleDepth(captured, pixel.x(), pixel.y(), nearness.smooth_m);
+    if (z > 0.0f && std::abs(vertex.z() - z) < nearness.depth_m) {
+      classes.near_surface.push_back(i);
+      classes.observed_depth.push_back(z);
+    } else if (nearness.behind == BehindSurface::kHidden && z > 0.0f && vertex.z() > z) {
+      continue;
+    } else if (!IsExplained(captured, static_cast<int>(pixel.x() + 0.5f),
+                            static_cast<int>(pixel.y() + 0.5f), vertex.z(), nearness)) {
+      classes.elsewhere.push_back(i);
+    }
+  }
+}
+
+void FindUnexplainedPoints(const PointCloud& cloud, const DepthImage& rendered,
+                           const NearnessSettings& nearness, std::vector<int>& unexplained) {
+  unexplained.clear();
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const int u = cloud.pixels[i] % rendered.width(), v = cloud.pixels[i] / rendered.width();
+    if (!IsExplained(rendered, u, v, cloud.points[i].z(), nearness))
+      unexplained.push_back(static_cast<int>(i));
+  }
+}
+
+void PairFinder::FindNearest(const std::vector<Vector3f>& points, const std::vector<int>& queries,
+                             const NearestNeighbors& near, float cutoff_m) {
+  positions_.clear();
+  for (const int i : queries) positions_.push_back(points[i]);
+  near.FindNearest(positions_, cutoff_m, neighbors_);
+}
+
+void PairFinder::VerticesToPoints(const std::vector<Vector3f>& vertices,
+                                  const std::vector<int>& queries, const PointCloud& cloud,
+                                  const NearestNeighbors& near_cloud, float cutoff_m,
+                                  std::vector<Pair>& pairs) {
+  FindNearest(vertices, queries, near_cloud, cutoff_m);
+  for (std::size_t k = 0; k < queries.size(); ++k) {
+    if (neighbors_[k].index >= 0) pairs.push_back({queries[k], cloud.points[neighbors_[k].index]});
+  }
+}
+
+void PairFinder::DropNear(const PointCloud& cloud, const NearestNeighbors& near, float distance_m,
+                          std::vector<int>& queries) {
+  FindNearest(cloud.points, queries, near, distance_m);
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < queries.size(); ++k) {
+    if (neighbors_[k].index < 0) queries[kept++] = queries[k];
+  }
+  queries.resize(kept);
+}
+
+}  // namespace vitruvia

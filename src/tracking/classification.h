@@ -1,0 +1,85 @@
+// Paper A's sorting of the visible model and the observed points, and the pairs that follow from
+// it.
+#pragma once
+
+#include <vector>
+
+#include "geometry/point_cloud.h"
+#include "search/nearest_neighbors.h"
+
+namespace vitruvia {
+
+// What to make of a vertex that lies behind the captured surface.
+enum class BehindSurface {
+  kElsewhere,  // paper: it is V2 and looks for a point
+  kHidden,     // another part of the body may hide it: it is neither V1 nor V2
+};
+
+// How near is near.
+struct NearnessSettings {
+  float depth_m;  // along z, at the same pixel
+  // Depth jumps at silhouettes, where half a pixel decides between the body and what is behind it.
+  // What is near within this many columns and rows counts as explained, though it is no V1.
+  int edge_px;
+  float smooth_m;  // see SampleDepth
+  BehindSurface behind = BehindSurface::kElsewhere;
+};
+
+// V1: visible vertices near the captured surface at their pixel. V2: visible vertices that no
+// captured pixel explains.
+struct VertexClasses {
+  std::vector<int> near_surface;      // V1: vertex indices
+  std::vector<float> observed_depth;  // V1: the captured depth at each one's pixel, metres
+  std::vector<int> elsewhere;         // V2: vertex indices
+};
+void ClassifyVertices(const std::vector<Vector3f>& vertices, const std::vector<int>& visible,
+                      const DepthImage& captured, const PinholeCamera& camera,
+                      const NearnessSettings& nearness, VertexClasses& classes);
+
+// P2: indices of the cloud's points that the rendered model does not explain.
+void FindUnexplainedPoints(const PointCloud& cloud, const DepthImage& rendered,
+                           const NearnessSettings& nearness, std::vector<int>& unexplained);
+
+// A model vertex and the observed point it should move to.
+struct Pair {
+  int vertex = -1;
+  Vector3f target = Vector3f::Zero();  // camera frame, metres
+};
+
+// Appends for each query vertex its closest point of the cloud, where one lies within cutoff_m.
+class PairFinder {
+ public:
+  // `near_cloud` holds cloud.points.
+  void VerticesToPoints(const std::vector<Vector3f>& vertices, const std::vector<int>& queries,
+                        const PointCloud& cloud, const NearestNeighbors& near_cloud, float cutoff_m,
+                        std::vector<Pair>& pairs);
+  // Removes from `queries` the cloud's points within distance_m of what `near` holds.
+  void DropNear(const PointCloud& cloud, const NearestNeighbors& near, float distance_m,
+                std::vector<int>& queries);
+  // Appends for each query point its closest vertex among `candidates`, whose positions
+  // `near_candidates` holds, where one lies within that vertex's cutoff. `cutoff_m(vertex)` is at
+  // most largest_cutoff_m.
+  template <class Cutoff>
+  void PointsToVertices(const PointCloud& cloud, const std::vector<int>& queries,
+                        const std::vector<int>& candidates, const NearestNeighbors& near_candidates,
+                        float largest_cutoff_m, Cutoff cutoff_m, std::vector<Pair>& pairs) {
+    FindNearest(cloud.points, queries, near_candidates, largest_cutoff_m);
+    for (std::size_t k = 0; k < queries.size(); ++k) {
+      if (neighbors_[k].index < 0) continue;
+      const int vertex = candidates[neighbors_[k].index];
+      const float cutoff = cutoff_m(vertex);
+      if (neighbors_[k].squared_distance <= cutoff * cutoff) {
+        pairs.push_back({vertex, positions_[k]});
+      }
+    }
+  }
+
+ private:
+  void FindNearest(const std::vector<Vector3f>& points, const std::vector<int>& queries,
+                   const NearestNeighbors& near, float cutoff_m);
+
+  std::vector<Vector3f> positions_;  // kept between frames to avoid allocation
+  std::vector<KdTree::Neighbor> neighbors_;
+};
+
+}  // namespace vitruvia

@@ -1,0 +1,147 @@
+#include "tracking/input_faults.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/error.h"
+#include "core/random.h"
+
+namespace vitruvia {
+namespace {
+
+float FaultyDepth(DepthFault kind, float depth_m, double depth_unit_m) {
+  switch (kind) {
+    case DepthFault::kNone:
+      return depth_m;
+    case DepthFault::kZero:
+      return 0.0f;
+    case DepthFault::kMaximum:
+      return static_cast<float>(std::numeric_limits<std::uint16_t>::max() * depth_unit_m);
+    case DepthFault::kNotANumber:
+      return std::numeric_limits<float>::quiet_NaN();
+    case DepthFault::kInfinite:
+      return std::numeric_limits<float>::infinity();
+    case DepthFault::kNegative:
+      return -depth_m;
+  }
+  return depth_m;
+}
+
+struct SparedPixel {
+  int squared_px;  // from the image's middle, in half pixels
+  int u, v;
+  float depth_m;
+};
+
+// The measured pixels nearest to the image's middle.
+std::vector<SparedPixel> SparedPixels(const DepthImage& depth, int count) {
+  std::vector<SparedPixel> measured;
+  for (int v = 0; count > 0 && v < depth.height(); ++v) {
+    for (int u = 0; u < depth.width(); ++u) {
+      const int x = 2 * u + 1 - depth.width(), y = 2 * v + 1 - depth.height();
+      if (depth(u, v) > 0.0f) measured.push_back({x * x + y * y, u, v, depth(u, v)});
+    }
+  }
+  std::stable_sort(
+      measured.begin(), measured.end(),
+      [](const SparedPixel& a, const SparedPixel& b) { return a.squared_px < b.squared_px; });
+  measured.resize(std::min(measured.size(), static_cast<std::size_t>(count)));
+  return measured;
+}
+
+}  // namespace
+
+void DepthFaultSettings::Describe(Fields& f) {
+  f.Choice("kind", kind,
+           {{"none", DepthFault::kNone},
+            {"zero", DepthFault::kZero},
+            {"maximum", DepthFault::kMaximum},
+            {"not_a_number", DepthFault::kNotANumber},
+            {"infinite", DepthFault::kInfinite},
+            {"negative", DepthFault::kNegative}},
+           {.meaning = "what a damaged pixel holds: nothing, the largest number of a 16-bit image, "
+                       "no number, infinity, or its depth with the wrong sign"});
+  if (!f.Applies(kind != DepthFault::kNone)) return;
+  f.Integer("first_frame", first_frame,
+            {.meaning = "first damaged frame", .unit = "frames", .min = 0, .max = 1e6});
+  f.Integer("frames", frames,
+            {.meaning = "how many frames are damaged", .unit = "frames", .min = 1, .max = 1e6});
+  f.Number("share", share,
+           {.meaning = "share of a damaged frame's pixels, chosen by chance", .min = 0, .max = 1});
+  f.Integer("pixels_spared", pixels_spared,
+            {.meaning = "measured pixels that stay whole, nearest to the image's middle",
+             .unit = "px",
+             .min = 0,
+             .max = 1e8});
+}
+
+void SubjectFaultSettings::Describe(Fields& f) {
+  f.Text("bone_without_vertices", bone_without_vertices,
+         {.meaning = "a bone whose weights its parent gets, so that no vertex follows it"});
+  f.Integer("duplicate_triangles", duplicate_triangles,
+            {.meaning = "triangles that stand twice in the template", .min = 0, .max = 1e6});
+  f.Integer("degenerate_triangles", degenerate_triangles,
+            {.meaning = "triangles added to the template with two corners in one vertex",
+             .min = 0,
+             .max = 1e6});
+}
+
+std::string SubjectFaultSettings::Problem() const {
+  if (bone_without_vertices.empty()) return "";
+  const int bone = FindBone(bone_without_vertices);
+  if (bone >= 0 && Bones()[bone].parent >= 0) return "";
+  std::vector<std::string_view> names;
+  for (const BoneInfo& info : Bones()) {
+    if (info.parent >= 0) names.push_back(info.name);
+  }
+  return fmt::format("bone_without_vertices \"{}\": expected one of {}", bone_without_vertices,
+                     fmt::join(names, ", "));
+}
+
+bool InputFaultSettings::AreNone() const {
+  return depth.kind == DepthFault::kNone && subject.bone_without_vertices.empty() &&
+         subject.duplicate_triangles == 0 && subject.degenerate_triangles == 0;
+}
+
+void InputFaultSettings::Describe(Fields& f) {
+  f.Section("depth", depth, {.meaning = "what is wrong with some depth images"});
+  f.Section("subject", subject, {.meaning = "what is wrong with the template"});
+}
+
+void DamageFrame(const DepthFaultSettings& settings, double depth_unit_m, int seed,
+                 DepthFrame& frame) {
+  const int since = frame.index - settings.first_frame;
+  if (settings.kind == DepthFault::kNone || since < 0 || since >= settings.frames) return;
+  const std::vector<SparedPixel> spared = SparedPixels(frame.depth, settings.pixels_spared);
+  RandomStream random(static_cast<std::uint64_t>(seed), fmt::format("faults/{}", frame.index));
+  for (float& depth_m : frame.depth.pixels()) {
+    if (random.Uniform() < settings.share) {
+      depth_m = FaultyDepth(settings.kind, depth_m, depth_unit_m);
+    }
+  }
+  for (const SparedPixel& pixel : spared) frame.depth(pixel.u, pixel.v) = pixel.depth_m;
+}
+
+void DamageSubject(const SubjectFaultSettings& settings, Subject& subject) {
+  if (!settings.bone_without_vertices.empty()) {
+    const int bone = FindBone(settings.bone_without_vertices);
+    Eigen::MatrixXf weights = Dense(subject.weights, kBoneCount);
+    weights.col(Bones()[bone].parent) += weights.col(bone);
+    weights.col(bone).setZero();
+    subject.weights = Sparsified(weights);
+  }
+  // Spread evenly over the mesh.
+  const std::vector<Triangle> whole = subject.rest.triangles;
+  const auto nth = [&](int k, int count) {
+    return whole[static_cast<std::size_t>(k) * whole.size() / static_cast<std::size_t>(count)];
+  };
+  for (int k = 0; k < settings.duplicate_triangles; ++k) {
+    subject.rest.triangles.push_back(nth(k, settings.duplicate_triangles));
+  }
+  for (int k = 0; k < settings.degenerate_triangles; ++k) {
+    const Triangle triangle = nth(k, settings.degenerate_triangles);
+    subject.rest.triangles.push_back({triangle[0], triangle[0], triangle[1]});
+  }
+}
+
+}  // namespace vitruvia

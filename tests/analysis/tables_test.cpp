@@ -1,0 +1,93 @@
+#include "analysis/tables.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace vitruvia {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(MetricNames, PrintInTheUnitsOfTheReader) {
+  EXPECT_EQ(Titled(NameOfMetric("l2_mean_m")), "mean L2 error (mm)");
+  EXPECT_EQ(Printed(0.00123, NameOfMetric("l2_mean_m")), "1.23");
+  EXPECT_EQ(Printed(0.987, NameOfMetric("joints_within_10cm")), "98.70");
+  EXPECT_EQ(PrintedSigned(-0.0005, NameOfMetric("l2_mean_of_diagonal")), "−0.00050");
+  EXPECT_EQ(PrintedSigned(2.0, NameOfMetric("frame_ms_p95")), "+2.0");
+  EXPECT_EQ(PrintedCell(nullptr, NameOfMetric("l2_mean_m")), "–");
+  EXPECT_EQ(PrintedCell(300, NameOfMetric("frames")), "300");
+}
+
+TEST(MetricNames, UnknownOnesAreReadFromTheirEnding) {
+  EXPECT_EQ(Titled(NameOfMetric("l2_mean_visible_m")), "l2 mean visible (mm)");
+  EXPECT_EQ(Titled(NameOfMetric("solve_ms")), "solve (ms)");
+  EXPECT_EQ(Titled(NameOfMetric("joints_hidden_within_5cm")), "joints hidden within 5cm (%)");
+  EXPECT_EQ(Titled(NameOfMetric("wobble")), "wobble");
+}
+
+ReportedExperiment WithOneRun(double paper, double at_most, nlohmann::json ours) {
+  ReportedExperiment experiment;
+  experiment.record.expectations = {{"l2_mean_of_diagonal", paper, at_most, "paper A", ""}};
+  ReportedRun run;
+  run.run_id = "a";
+  run.record.emplace();
+  run.record->run_id = "a";
+  run.record->summary = {{"l2_mean_of_diagonal", std::move(ours)}};
+  experiment.runs.push_back(run);
+  return experiment;
+}
+
+TEST(CompareWithPapers, JudgesByTheTargetAlone) {
+  const auto verdict = [](double at_most, nlohmann::json ours) {
+    return CompareWithPapers(WithOneRun(0.001, at_most, std::move(ours)))[0].runs[0].verdict;
+  };
+  EXPECT_EQ(verdict(0.002, 0.0015), Verdict::kMet);
+  EXPECT_EQ(verdict(0.002, 0.002), Verdict::kMet);
+  EXPECT_EQ(verdict(0.002, 0.0021), Verdict::kMissed);
+  EXPECT_EQ(verdict(kNan, 0.5), Verdict::kNoTarget);
+  EXPECT_EQ(verdict(0.002, nullptr), Verdict::kNoResult);
+}
+
+TEST(CompareSteps, SetsTable1BesideOurs) {
+  RunRecord run;
+  run.summary = {{"frame_ms_median", 9.0}, {"frame_ms_p95", 12.0}};
+  run.frames["frame_ms"] = {8.0, 13.5, 9.0};
+  run.steps = {{"2 kd-tree of P", 2.0, 2.5, 3.0},
+               {"8 correspond", 4.0, 5.0, 6.0},
+               {"own step", 1.0, 1.0, 1.0}};
+  const std::vector<StepRow> rows = CompareSteps(run);
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_TRUE(std::isnan(rows[0].paper_per_iteration_ms));
+  EXPECT_EQ(rows[0].paper_per_frame_ms, 4.2);
+  EXPECT_EQ(rows[1].paper_per_iteration_ms, 1.8);
+  EXPECT_DOUBLE_EQ(rows[1].paper_per_frame_ms, 6.3);
+  EXPECT_EQ(rows[1].p95_ms, 5.0);
+  EXPECT_TRUE(std::isnan(rows[2].paper_per_frame_ms));
+  EXPECT_EQ(rows[3].name, "whole frame");
+  EXPECT_EQ(rows[3].paper_per_frame_ms, 25.0);
+  EXPECT_EQ(rows[3].median_ms, 9.0);
+  EXPECT_EQ(rows[3].max_ms, 13.5);
+}
+
+TEST(CompareSteps, MethodsOfOtherPapersGetNoNumbersOfPaperA) {
+  RunRecord run;
+  run.steps = {{"own step", 1.0, 1.0, 1.0}};
+  EXPECT_TRUE(std::isnan(CompareSteps(run).back().paper_per_frame_ms));
+}
+
+TEST(SummaryTable, HasTheUsualColumnsFirstAndKeepsTheOthers) {
+  ReportedExperiment experiment = WithOneRun(0.001, kNan, 0.5);
+  experiment.runs[0].record->summary["zeta"] = 1.5;
+  experiment.runs[0].record->summary["alpha_m"] = 2.5;
+  const SummaryTable table = MakeSummaryTable(experiment);
+  EXPECT_EQ(table.columns[0].key, "run_id");
+  EXPECT_EQ(table.columns[table.columns.size() - 2].key, "alpha_m");
+  EXPECT_EQ(table.columns.back().key, "zeta");
+  EXPECT_EQ(table.rows[0].cells.back(), 1.5);
+  EXPECT_EQ(table.rows[0].cells[0], "a");
+}
+
+}  // namespace
+}  // namespace vitruvia

@@ -1,0 +1,141 @@
+// Each fault damages what it says and nothing else.
+#include "tracking/input_faults.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "config/json_settings.h"
+#include "core/error.h"
+#include "support/tiny_body.h"
+
+namespace vitruvia {
+namespace {
+
+constexpr double kUnit_m = 0.001;
+
+// Depths 1, 2, … m; the first two pixels are not measured.
+DepthFrame Counting(int index) {
+  DepthFrame frame{index, 0.0, DepthImage(5, 4)};
+  for (std::size_t i = 2; i < frame.depth.pixels().size(); ++i) {
+    frame.depth.pixels()[i] = static_cast<float>(i);
+  }
+  return frame;
+}
+
+DepthFrame Damaged(const DepthFaultSettings& settings, int index = 3, int seed = 1) {
+  DepthFrame frame = Counting(index);
+  DamageFrame(settings, kUnit_m, seed, frame);
+  return frame;
+}
+
+TEST(DepthFaults, FillTheFramesThatTheyAreAboutAndNoOthers) {
+  const DepthFaultSettings zero{.kind = DepthFault::kZero, .first_frame = 3, .frames = 2};
+  for (const int whole : {0, 2, 5}) {
+    EXPECT_EQ(Damaged(zero, whole).depth.pixels(), Counting(whole).depth.pixels()) << whole;
+  }
+  for (const int damaged : {3, 4}) {
+    EXPECT_EQ(Damaged(zero, damaged).depth.pixels(), DepthImage(5, 4).pixels()) << damaged;
+  }
+}
+
+TEST(DepthFaults, HoldWhatTheyAreNamedAfter) {
+  const auto pixel = [](DepthFault kind) {
+    return Damaged({.kind = kind, .first_frame = 3}).depth(4, 3);
+  };
+  EXPECT_EQ(pixel(DepthFault::kNone), 19.0f);
+  EXPECT_EQ(pixel(DepthFault::kMaximum), 65.535f);
+  EXPECT_TRUE(std::isnan(pixel(DepthFault::kNotANumber)));
+  EXPECT_EQ(pixel(DepthFault::kInfinite), std::numeric_limits<float>::infinity());
+  EXPECT_EQ(pixel(DepthFault::kNegative), -19.0f);
+}
+
+TEST(DepthFaults, SpareMeasuredPixelsInTheMiddle) {
+  const DepthFrame frame =
+      Damaged({.kind = DepthFault::kZero, .first_frame = 3, .pixels_spared = 2});
+  for (int v = 0; v < 4; ++v) {
+    for (int u = 0; u < 5; ++u) {
+      const bool spared = u == 2 && (v == 1 || v == 2);
+      EXPECT_EQ(frame.depth(u, v), spared ? Counting(3).depth(u, v) : 0.0f) << u << " " << v;
+    }
+  }
+}
+
+TEST(DepthFaults, HitTheirShareOfThePixelsTheSameOnesForOneSeed) {
+  DepthFrame big{0, 0.0, DepthImage(100, 100, 2.0f)};
+  DepthFrame again = big, other = big;
+  const DepthFaultSettings settings{.kind = DepthFault::kZero, .share = 0.1};
+  DamageFrame(settings, kUnit_m, 1, big);
+  DamageFrame(settings, kUnit_m, 1, again);
+  DamageFrame(settings, kUnit_m, 2, other);
+  const auto lost = std::count(big.depth.pixels().begin(), big.depth.pixels().end(), 0.0f);
+  EXPECT_NEAR(static_cast<double>(lost), 1000.0, 100.0);
+  EXPECT_EQ(big.depth.pixels(), again.depth.pixels());
+  EXPECT_NE(big.depth.pixels(), other.depth.pixels());
+}
+
+TEST(SubjectFaults, ABoneWithoutVerticesHandsItsWeightsToItsParent) {
+  const BodyModel whole = TinyBody(2);
+  BodyModel body = whole;
+  DamageSubject({.bone_without_vertices = "left_hand"}, body);
+  EXPECT_EQ(WeightsProblem(body.weights, body.rest.vertices.size(), kBoneCount), "");
+  const Eigen::MatrixXf before = Dense(whole.weights, kBoneCount),
+                        after = Dense(body.weights, kBoneCount);
+  const int hand = static_cast<int>(BoneId::kLeftHand);
+  const int forearm = static_cast<int>(BoneId::kLeftForearm);
+  ASSERT_GT(before.col(hand).sum(), 10.0f);
+  EXPECT_EQ(after.col(hand).sum(), 0.0f);
+  EXPECT_TRUE(after.col(forearm).isApprox(before.col(forearm) + before.col(hand), 1e-6f));
+  const int foot = static_cast<int>(BoneId::kLeftFoot);
+  EXPECT_TRUE(after.col(foot).isApprox(before.col(foot), 1e-6f));
+}
+
+TEST(SubjectFaults, TrianglesAreAddedAndNoneIsLost) {
+  const BodyModel whole = TinyBody(2);
+  BodyModel body = whole;
+  SubjectFaultSettings settings;
+  settings.duplicate_triangles = 7;
+  settings.degenerate_triangles = 5;
+  DamageSubject(settings, body);
+  const std::size_t count = whole.rest.triangles.size();
+  ASSERT_EQ(body.rest.triangles.size(), count + 12);
+  for (std::size_t t = 0; t < count; ++t) {
+    EXPECT_EQ(body.rest.triangles[t], whole.rest.triangles[t]);
+  }
+  EXPECT_EQ(body.rest.triangles[count], whole.rest.triangles[0]);
+  EXPECT_EQ(body.rest.triangles[count + 6], whole.rest.triangles[6 * count / 7]);
+  const Triangle& degenerate = body.rest.triangles.back();
+  EXPECT_EQ(degenerate[0], degenerate[1]);
+  EXPECT_NE(degenerate[0], degenerate[2]);
+  EXPECT_EQ(body.rest.vertices, whole.rest.vertices);
+}
+
+TEST(SubjectFaults, ARootOrAnUnknownBoneIsRefused) {
+  for (const char* bone : {"pelvis", "tail"}) {
+    const Json json = {{"subject", {{"bone_without_vertices", bone}}}};
+    try {
+      ReadSettings<InputFaultSettings>(json, {"e.json", "variants[0].faults"});
+      FAIL() << bone;
+    } catch (const ConfigError& error) {
+      EXPECT_EQ(std::string(error.what())
+                    .find("e.json: variants[0].faults.subject: "
+                          "bone_without_vertices \"" +
+                          std::string(bone) + "\": expected one of abdomen, chest, neck"),
+                0u)
+          << error.what();
+    }
+  }
+}
+
+TEST(InputFaults, AreNoneUnlessSomethingIsDamaged) {
+  EXPECT_TRUE(InputFaultSettings{}.AreNone());
+  InputFaultSettings depth, subject;
+  depth.depth.kind = DepthFault::kZero;
+  subject.subject.duplicate_triangles = 1;
+  EXPECT_FALSE(depth.AreNone());
+  EXPECT_FALSE(subject.AreNone());
+}
+
+}  // namespace
+}  // namespace vitruvia

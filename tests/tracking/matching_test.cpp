@@ -1,0 +1,212 @@
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+#include "geometry/zbuffer.h"
+#include "tracking/classification.h"
+#include "tracking/visibility.h"
+
+namespace vitruvia {
+namespace {
+
+PinholeCamera SmallCamera() {
+  PinholeCamera camera;
+  camera.width = 40;
+  camera.height = 30;
+  camera.fx = camera.fy = 40.0;
+  camera.cx = 19.5;
+  camera.cy = 14.5;
+  return camera;
+}
+
+TEST(CloudFromDepth, TakesEveryStridePixelThatWasMeasured) {
+  const PinholeCamera camera = SmallCamera();
+  DepthImage depth(40, 30);
+  depth(4, 6) = 2.0f;
+  depth(5, 6) = 2.0f;  // odd column: not sampled
+  depth(8, 8) = std::numeric_limits<float>::quiet_NaN();
+  depth(10, 8) = -1.0f;
+  depth(12, 8) = std::numeric_limits<float>::infinity();
+  depth(14, 8) = 9.0f;  // beyond max_depth
+  PointCloud cloud;
+  CloudFromDepth(depth, camera, 2, 8.0f, cloud);
+  ASSERT_EQ(cloud.points.size(), 1u);
+  EXPECT_EQ(cloud.pixels[0], 6 * 40 + 4);
+  EXPECT_TRUE(cloud.points[0].isApprox(Vector3f((4 - 19.5f) / 40 * 2, (6 - 14.5f) / 40 * 2, 2)));
+}
+
+TEST(SampleDepth, IsExactOnAPlaneAndNeverMixesAcrossAStep) {
+  DepthImage depth(10, 10);
+  for (int v = 0; v < 10; ++v) {
+    for (int u = 0; u < 10; ++u)
+      depth(u, v) =
+          u < 5 ? 1.0f + 0.001f * static_cast<float>(u) + 0.002f * static_cast<float>(v) : 2.0f;
+  }
+  EXPECT_NEAR(SampleDepth(depth, 2.25f, 3.5f, 0.02f), 1.0 + 0.00225 + 0.007, 1e-6);
+  EXPECT_EQ(SampleDepth(depth, 4.4f, 3.0f, 0.02f), depth(4, 3));
+  EXPECT_EQ(SampleDepth(depth, 4.6f, 3.0f, 0.02f), 2.0f);
+}
+
+TEST(SampleDepth, HasNothingOutsideOrWhereNothingWasMeasured) {
+  DepthImage depth(10, 10, 1.0f);
+  depth(3, 3) = 0.0f;
+  EXPECT_EQ(SampleDepth(depth, 3.2f, 3.1f, 0.02f), 0.0f);
+  EXPECT_EQ(SampleDepth(depth, -0.6f, 3.0f, 0.02f), 0.0f);
+  EXPECT_EQ(SampleDepth(depth, 3.0f, 9.6f, 0.02f), 0.0f);
+  EXPECT_EQ(SampleDepth(depth, std::numeric_limits<float>::quiet_NaN(), 3.0f, 0.02f), 0.0f);
+  EXPECT_EQ(SampleDepth(depth, -0.4f, 9.4f, 0.02f), 1.0f);
+}
+
+// Two squares, one behind the other.
+struct TwoSquares {
+  std::vector<Vector3f> vertices;
+  std::vector<Triangle> triangles;
+  TwoSquares() {
+    AddSquare(0.3f, 1.0f);
+    AddSquare(0.9f, 2.0f);
+  }
+  void AddSquare(float half, float z) {
+    const auto first = static_cast<std::int32_t>(vertices.size());
+    vertices.insert(vertices.end(),
+                    {{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}});
+    vertices.push_back({0.0f, 0.0f, z});
+    triangles.push_back({first, first + 1, first + 2});
+    triangles.push_back({first, first + 2, first + 3});
+  }
+};
+
+TEST(ZBuffer, DrawsTheNearerSurfaceWithPerspectiveDepth) {
+  const PinholeCamera camera = SmallCamera();
+  const TwoSquares scene;
+  ZBuffer squares(camera);
+  const DepthImage& depth = squares.Render(scene.vertices, scene.triangles);
+  EXPECT_FLOAT_EQ(depth(20, 15), 1.0f);
+  EXPECT_FLOAT_EQ(depth(5, 15), 2.0f);
+  EXPECT_EQ(depth(0, 0), 0.0f);
+
+  // A slanted plane z = 2 + x: depth along a pixel's ray is 2 / (1 − x/z).
+  const std::vector<Vector3f> slanted = {{-1, -1, 1}, {1, -1, 3}, {1, 1, 3}, {-1, 1, 1}};
+  ZBuffer zbuffer(camera);
+  const DepthImage& plane = zbuffer.Render(slanted, {{0, 1, 2}, {0, 2, 3}});
+  for (const int u : {10, 15, 20, 25}) {
+    const double ray_x = (u - camera.cx) / camera.fx;
+    EXPECT_NEAR(plane(u, 15), 2.0 / (1.0 - ray_x), 1e-5) << u;
+  }
+}
+
+TEST(ZBuffer, LeavesOutTrianglesBehindTheCameraAndWithoutArea) {
+  ZBuffer zbuffer(SmallCamera());
+  const std::vector<Vector3f> vertices = {{0, 0, -1},      {1, 0, 1},       {0, 1, 1},
+                                          {0.1f, 0.1f, 1}, {0.2f, 0.2f, 1}, {0.3f, 0.3f, 1}};
+  const DepthImage& depth = zbuffer.Render(vertices, {{0, 1, 2}, {3, 4, 5}});
+  for (const float pixel : depth.pixels()) EXPECT_EQ(pixel, 0.0f);
+}
+
+TEST(FindVisibleVertices, FindsThoseOnTheRenderedSurface) {
+  const PinholeCamera camera = SmallCamera();
+  const TwoSquares scene;
+  ZBuffer zbuffer(camera);
+  std::vector<int> visible;
+  FindVisibleVertices(scene.vertices, zbuffer.Render(scene.vertices, scene.triangles), camera,
+                      0.002f, visible);
+  // The far square's centre hides behind the near one; corners lie on the silhouette's own pixels.
+  EXPECT_TRUE(std::find(visible.begin(), visible.end(), 4) != visible.end());
+  EXPECT_TRUE(std::find(visible.begin(), visible.end(), 9) == visible.end());
+}
+
+TEST(Classification, SortsVerticesAndPointsByWhatExplainsThem) {
+  const PinholeCamera camera = SmallCamera();
+  const NearnessSettings nearness{0.05f, 1, 0.02f};
+  DepthImage captured(40, 30), rendered(40, 30);
+  for (int v = 10; v < 20; ++v) {
+    for (int u = 10; u < 20; ++u) captured(u, v) = 1.0f;
+    for (int u = 12; u < 22; ++u) rendered(u, v) = 1.01f;
+  }
+  const auto at = [&](float u, float v, float z) { return camera.Unproject(u, v, z); };
+  const std::vector<Vector3f> vertices = {
+      at(15, 15, 1.01f),  // on the surface: V1
+      at(20, 15, 1.01f),  // one pixel outside: the edge explains it
+      at(23, 15, 1.01f),  // far outside: V2
+      at(15, 15, 1.20f),  // far behind: V2
+  };
+  VertexClasses classes;
+  ClassifyVertices(vertices, {0, 1, 2, 3}, captured, camera, nearness, classes);
+  EXPECT_EQ(classes.near_surface, std::vector<int>{0});
+  EXPECT_EQ(classes.observed_depth, std::vector<float>{1.0f});
+  EXPECT_EQ(classes.elsewhere, (std::vector<int>{2, 3}));
+
+  PointCloud cloud;
+  CloudFromDepth(captured, camera, 1, 8.0f, cloud);
+  std::vector<int> unexplained;
+  FindUnexplainedPoints(cloud, rendered, nearness, unexplained);
+  EXPECT_EQ(unexplained.size(), 10u);  // column 10; column 11 touches the rendered edge
+  for (const int i : unexplained) EXPECT_EQ(cloud.pixels[i] % 40, 10);
+}
+
+TEST(PairFinder, FindsWhatBruteForceFinds) {
+  RandomStream random(3, "pairs");
+  const auto point = [&] {
+    return Vector3f(static_cast<float>(random.Uniform()), static_cast<float>(random.Uniform()),
+                    static_cast<float>(random.Uniform(1.0, 2.0)));
+  };
+  std::vector<Vector3f> vertices(200);
+  PointCloud cloud;
+  for (Vector3f& v : vertices) v = point();
+  for (int i = 0; i < 150; ++i) cloud.points.push_back(point());
+  std::vector<int> queries, point_queries;
+  for (int i = 0; i < 200; i += 3) queries.push_back(i);
+  for (int i = 0; i < 150; i += 2) point_queries.push_back(i);
+  constexpr float kCutoff = 0.15f;
+
+  const auto near_cloud = MakeNearestNeighbors(Association::kExhaustive, SmallCamera(), 0);
+  const auto near_candidates = MakeNearestNeighbors(Association::kExhaustive, SmallCamera(), 0);
+  near_cloud->Build(cloud.points);
+  std::vector<Vector3f> candidates;
+  for (const int i : queries) candidates.push_back(vertices[i]);
+  near_candidates->Build(candidates);
+  PairFinder finder;
+  std::vector<Pair> pairs;
+  finder.VerticesToPoints(vertices, queries, cloud, *near_cloud, kCutoff, pairs);
+  // Every third candidate reaches half as far.
+  const auto cutoff = [](int vertex) { return vertex % 9 == 0 ? 0.5f * kCutoff : kCutoff; };
+  finder.PointsToVertices(cloud, point_queries, queries, *near_candidates, kCutoff, cutoff, pairs);
+
+  const auto nearest = [](const Vector3f& from, const std::vector<Vector3f>& to) {
+    int best = 0;
+    for (std::size_t i = 1; i < to.size(); ++i) {
+      if ((to[i] - from).squaredNorm() < (to[best] - from).squaredNorm())
+        best = static_cast<int>(i);
+    }
+    return best;
+  };
+  std::vector<Pair> reference;
+  for (const int i : queries) {
+    const Vector3f& target = cloud.points[nearest(vertices[i], cloud.points)];
+    if ((target - vertices[i]).norm() < kCutoff) reference.push_back({i, target});
+  }
+  for (const int i : point_queries) {
+    const int k = nearest(cloud.points[i], candidates);
+    if ((candidates[k] - cloud.points[i]).norm() < cutoff(queries[k]))
+      reference.push_back({queries[k], cloud.points[i]});
+  }
+  ASSERT_EQ(pairs.size(), reference.size());
+  EXPECT_GT(pairs.size(), 50u);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    EXPECT_EQ(pairs[k].vertex, reference[k].vertex);
+    EXPECT_EQ(pairs[k].target, reference[k].target);
+  }
+}
+
+TEST(KdTree, FindsNothingInNothing) {
+  KdTree tree;
+  tree.Build({});
+  std::vector<KdTree::Neighbor> neighbors;
+  tree.FindNearest({Vector3f::Zero()}, 1.0f, neighbors);
+  ASSERT_EQ(neighbors.size(), 1u);
+  EXPECT_EQ(neighbors[0].index, -1);
+}
+
+}  // namespace
+}  // namespace vitruvia
