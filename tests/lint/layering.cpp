@@ -131,14 +131,23 @@ class Checker {
   std::vector<std::string> Check() {
     for (const auto& [name, module] : modules_) CheckDepends(module);
     for (const auto& [name, module] : modules_) CheckForCycle(name, {});
+    // The modules that each module's files include; a module without files is not listed.
+    std::map<std::string, std::set<std::string>> included;
     for (const auto& [path, includes] : includes_) {
       const Module* own = ModuleOf(path);
       if (own == nullptr) {
         Report("{}: belongs to no module", path);
         continue;
       }
-      for (const Include& include : includes) CheckInclude(path, *own, include);
+      std::set<std::string>& included_by_own = included[own->name];
+      for (const Include& include : includes) {
+        CheckInclude(path, *own, include);
+        if (const Module* other = ModuleOf(Resolved(include.header))) {
+          included_by_own.insert(other->name);
+        }
+      }
     }
+    for (const auto& [name, others] : included) CheckForUnused(modules_.at(name), others);
     return violations_;
   }
 
@@ -158,6 +167,14 @@ class Checker {
       const std::string& folder = found->second.folder;
       if (FolderOf(folder) == kMethodsFolder && module.folder != kMethodsFolder) {
         Report("{}: DEPENDS names the method {}; only {} may", module.name, name, kMethodsFolder);
+      }
+    }
+  }
+
+  void CheckForUnused(const Module& module, const std::set<std::string>& included) {
+    for (const std::string& name : module.depends) {
+      if (modules_.contains(name) && !included.contains(name)) {
+        Report("{}: DEPENDS names {}, which no file of it includes", module.name, name);
       }
     }
   }

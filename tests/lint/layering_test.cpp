@@ -25,10 +25,11 @@ std::vector<SourceFile> House(std::vector<SourceFile> more = {}) {
       {"attic/CMakeLists.txt", "add_module(attic DEPENDS middle)\n"},
       {"attic/attic.h", "#include \"middle/clean.h\"\n#include <json/json.h>\n"},
       {"src/methods/CMakeLists.txt", "add_module(methods DEPENDS one two)\n"},
-      {"src/methods/registry.cpp", "#include \"methods/one/one.h\"\n"},
+      {"src/methods/registry.cpp", "#include \"methods/one/one.h\"\n#include \"methods/two/two.h\"\n"},
       {"src/methods/one/CMakeLists.txt", "add_module(one DEPENDS ground)\n"},
       {"src/methods/one/one.h", "#include \"ground/error.h\"\n"},
-      {"src/methods/two/CMakeLists.txt", "add_module(two DEPENDS ground)\n"}};
+      {"src/methods/two/CMakeLists.txt", "add_module(two)\n"},
+      {"src/methods/two/two.h", "#include <vector>\n"}};
   for (SourceFile& file : more) tree.push_back(std::move(file));
   return tree;
 }
@@ -77,6 +78,12 @@ TEST(LayeringLint, FindsCyclesUnknownAndRepeatedModules) {
               ElementsAre("x: DEPENDS names cellar, which is no module"));
   EXPECT_THAT(Check({{"src/x/CMakeLists.txt", "add_module(ground)"}}),
               ElementsAre("src/x/CMakeLists.txt: module ground is declared twice"));
+}
+
+TEST(LayeringLint, FindsADependencyThatNoFileNeeds) {
+  EXPECT_THAT(Check({{"src/x/CMakeLists.txt", "add_module(x DEPENDS ground middle)"},
+                     {"src/x/a.cpp", "#include \"ground/error.h\"\n"}}),
+              ElementsAre("x: DEPENDS names middle, which no file of it includes"));
 }
 
 TEST(LayeringLint, KeepsMethodsApart) {
