@@ -45,14 +45,14 @@ void RequireOneWholeBody(const ScanSurface& surface, const BodyCheckSettings& se
         area_m2, settings.min_area_m2));
   }
   if (found.size() > 1 && found[1].area_m2 >= settings.second_body_share * area_m2) {
-    const Vector3f a = 0.5f * (found[0].low + found[0].high);
-    const Vector3f b = 0.5f * (found[1].low + found[1].high);
+    const Vector3f a = found[0].box.center();
+    const Vector3f b = found[1].box.center();
     throw DataError(fmt::format(
         "scan: two bodies: surfaces of {:.2f} m² round ({:.2f}, {:.2f}, {:.2f}) and of {:.2f} m² "
         "round ({:.2f}, {:.2f}, {:.2f}); expected one",
         area_m2, a.x(), a.y(), a.z(), found[1].area_m2, b.x(), b.y(), b.z()));
   }
-  float top = found.front().low.y();
+  float top = found.front().box.min().y();
   for (const Vector3f& p : surface.mesh.vertices) top = std::max(top, p.y());
   for (const BoundaryLoop& hole : surface.holes) {
     if (hole.center.y() < top - static_cast<float>(settings.head_reach_m) ||
