@@ -116,15 +116,8 @@ class WindowNeighbors final : public NearestNeighbors {
   };
 
   int CellOf(const Vector3f& point) const {
-    if (!(point.z() > 0.0f)) return -1;
-    const auto pixel = camera_.Project(point);
-    if (!(pixel.x() >= -0.5f && pixel.y() >= -0.5f &&
-          pixel.x() < static_cast<float>(camera_.width) - 0.5f &&
-          pixel.y() < static_cast<float>(camera_.height) - 0.5f)) {
-      return -1;
-    }
-    const int u = static_cast<int>(pixel.x() + 0.5f), v = static_cast<int>(pixel.y() + 0.5f);
-    return v / kCellPx * columns_ + u / kCellPx;
+    const auto pixel = camera_.PixelOf(point);
+    return pixel ? pixel->v / kCellPx * columns_ + pixel->u / kCellPx : -1;
   }
 
   KdTree::Neighbor Nearest(const Vector3f& query, float max_distance_m) const {
