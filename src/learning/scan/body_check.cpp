@@ -8,7 +8,7 @@ namespace vitruvia {
 
 void BodyCheckSettings::Describe(Fields& f) {
   f.Number("min_area_m2", min_area_m2,
-           {.meaning = "a surface with less area is no body",
+           {.meaning = "minimum area of a surface that counts as a body",
             .unit = "m²",
             .min = 0.0,
             .max = 10.0,
@@ -21,14 +21,14 @@ void BodyCheckSettings::Describe(Fields& f) {
             .origin = Origin::kGuessed,
             .source = "a leg has 0.18 of a body's surface"});
   f.Number("head_reach_m", head_reach_m,
-           {.meaning = "holes within this distance of the top are looked at as holes for a head",
+           {.meaning = "distance from the top within which a hole counts as a missing head",
             .unit = "m",
             .min = 0.0,
             .max = 1.0,
             .origin = Origin::kGuessed,
             .source = "above the chin: what lies below may be hidden by it"});
   f.Number("max_head_hole_m2", max_head_hole_m2,
-           {.meaning = "a larger opening there is a hole for a head",
+           {.meaning = "an opening near the top that is larger than this counts as a missing head",
             .unit = "m²",
             .min = 0.0,
             .max = 1.0,

@@ -273,31 +273,33 @@ void IntrinsicShapeSettings::Describe(Fields& f) {
             .origin = Origin::kPaper,
             .source = "paper A, eq. 6"});
   f.Number("length_unit_m", length_unit_m,
-           {.meaning = "unit of the distances in E_diff",
+           {.meaning = "length that counts as 1 in the distance between body and scan (E_diff)",
             .unit = "m",
             .min = 1e-4,
             .max = 10.0,
             .origin = Origin::kGuessed,
             .source = "the paper gives no unit; the tracker's"});
-  f.Integer("max_iterations", max_iterations,
-            {.meaning = "Gauss–Newton steps; the cutoff shrinks over the first half",
-             .min = 1,
-             .max = 1000,
-             .origin = Origin::kGuessed});
+  f.Integer(
+      "max_iterations", max_iterations,
+      {.meaning = "maximum number of Gauss–Newton steps; the cutoff shrinks during the first half",
+       .min = 1,
+       .max = 1000,
+       .origin = Origin::kGuessed});
   f.Number("first_cutoff_m", first_cutoff_m,
-           {.meaning = "farthest pair of the first step",
+           {.meaning = "maximum distance between the points of a pair in the first step",
             .unit = "m",
             .min = 0.001,
             .max = 1.0,
             .origin = Origin::kGuessed});
-  f.Number("last_cutoff_m", last_cutoff_m,
-           {.meaning = "farthest pair from half-way on",
-            .unit = "m",
-            .min = 0.001,
-            .max = 1.0,
-            .origin = Origin::kGuessed});
+  f.Number(
+      "last_cutoff_m", last_cutoff_m,
+      {.meaning = "maximum distance between the points of a pair in the second half of the steps",
+       .unit = "m",
+       .min = 0.001,
+       .max = 1.0,
+       .origin = Origin::kGuessed});
   f.Number("normal_angle_deg", normal_angle_deg,
-           {.meaning = "greatest angle between the normals of a pair",
+           {.meaning = "maximum angle between the normals of a pair",
             .unit = "deg",
             .min = 1.0,
             .max = 90.0,
@@ -315,13 +317,13 @@ void IntrinsicShapeSettings::Describe(Fields& f) {
             .max = 90.0,
             .origin = Origin::kGuessed});
   f.Number("stop_m", stop_m,
-           {.meaning = "mean movement of the surface in a step at which the fit ends",
+           {.meaning = "the fit ends when a step moves the surface by less than this on average",
             .unit = "m",
             .min = 0.0,
             .max = 0.1,
             .origin = Origin::kGuessed});
   f.Integer("scan_points", scan_points,
-            {.meaning = "points of the scan, evenly chosen, that look for the body",
+            {.meaning = "number of scan points, evenly spaced, that are paired with the body",
              .min = 100,
              .max = 1000000,
              .origin = Origin::kGuessed});
@@ -330,14 +332,16 @@ void IntrinsicShapeSettings::Describe(Fields& f) {
             .min = 0.0,
             .max = 1.0,
             .origin = Origin::kGuessed});
-  f.Number("most_unusual", most_unusual,
-           {.meaning = "standard deviations that attributes may be from the database's mean",
-            .min = 0.0,
-            .max = 100.0,
-            .origin = Origin::kGuessed});
+  f.Number(
+      "most_unusual", most_unusual,
+      {.meaning =
+           "maximum distance of the attributes from the database's mean, in standard deviations",
+       .min = 0.0,
+       .max = 100.0,
+       .origin = Origin::kGuessed});
   f.Choice("attributes", attributes,
            {{"held", AttributeUse::kHeld}, {"ignored", AttributeUse::kIgnored}},
-           {.meaning = "whether height, weight and sex are held at what is known of the person",
+           {.meaning = "whether height, weight and sex are held at the person's known values",
             .origin = Origin::kPaper,
             .source = "paper A, eq. 6"});
 }
