@@ -4,13 +4,12 @@
 #include <cmath>
 #include <memory>
 
-#include <Eigen/Geometry>
-
 #include "config/build_cache.h"
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/timer.h"
 #include "geometry/surface_map.h"
+#include "math/rigid_fit.h"
 #include "math/statistics.h"
 #include "records/surface_strips.h"
 
@@ -32,13 +31,10 @@ std::vector<float> Distances(const std::vector<Vector3f>& points, const Triangle
 
 // The rigid motion that brings points nearest to their counterparts.
 Rigidf Alignment(const std::vector<Vector3f>& from, const std::vector<Vector3f>& to) {
-  Eigen::Matrix3Xd a(3, from.size()), b(3, to.size());
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    a.col(static_cast<Eigen::Index>(i)) = from[i].cast<double>();
-    b.col(static_cast<Eigen::Index>(i)) = to[i].cast<double>();
-  }
-  const Eigen::Matrix4d transform = Eigen::umeyama(a, b, false);
-  return Rigidd{transform.topLeftCorner<3, 3>(), transform.topRightCorner<3, 1>()}.Cast<float>();
+  const auto pair_at = [&](std::size_t i) {
+    return PointPair{from[i].cast<double>(), to[i].cast<double>()};
+  };
+  return FitRigid(from.size(), pair_at).Cast<float>();
 }
 
 struct ShapeStudy {

@@ -29,14 +29,7 @@ PictureWindow Centered(const ImageBounds& bounds, double extent) {
           extent, extent};
 }
 
-Vector3f Middle(const std::vector<Vector3f>& points) {
-  Vector3f low = points.front(), high = points.front();
-  for (const Vector3f& point : points) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  return 0.5f * (low + high);
-}
+Vector3f Middle(const std::vector<Vector3f>& points) { return BoundingBox(points).center(); }
 
 double Pixels(const PinholeCamera& camera, double length_m, const Vector3f& at) {
   return length_m * camera.fx / static_cast<double>(at.z());

@@ -33,19 +33,14 @@ std::vector<Vector3f> InView(const std::vector<Vector3f>& vertices, double turn_
   return seen;
 }
 
-struct Box {
-  Vector3f low = Vector3f::Constant(1e9f), high = Vector3f::Constant(-1e9f);
-};
-
 // What all panels of all strips show, so that they have one scale.
-Box BoxAround(const std::vector<SurfaceStrip>& strips) {
-  Box box;
+Eigen::AlignedBox3f BoxAround(const std::vector<SurfaceStrip>& strips) {
+  Eigen::AlignedBox3f box;
   for (const SurfaceStrip& strip : strips) {
     for (const SurfacePanel& panel : strip.panels) {
       for (const ShownSurface& surface : panel.surfaces) {
         for (const Vector3f& v : InView(surface.mesh.vertices, panel.turn_deg)) {
-          box.low = box.low.cwiseMin(v);
-          box.high = box.high.cwiseMax(v);
+          box.extend(v);
         }
       }
     }
@@ -126,11 +121,11 @@ void DrawSurfaceStrips(const std::filesystem::path& run_folder, MeshView& view, 
     run.problem = "the run left no surfaces";
     return;
   }
-  const Box box = BoxAround(strips);
-  const Vector3f middle = 0.5f * (box.low + box.high);
+  const Eigen::AlignedBox3f box = BoxAround(strips);
+  const Vector3f middle = box.center();
   const double pixels_per_m = ViewCamera().fx / kViewDistance_m;
   const double extent =
-      kPanelMargin * pixels_per_m * static_cast<double>((box.high - box.low).head<2>().maxCoeff());
+      kPanelMargin * pixels_per_m * static_cast<double>(box.sizes().head<2>().maxCoeff());
   const PictureWindow window{ViewCamera().cx + 0.5 + pixels_per_m * middle.x() - 0.5 * extent,
                              ViewCamera().cy + 0.5 + pixels_per_m * middle.y() - 0.5 * extent,
                              extent, extent};

@@ -1,6 +1,7 @@
 // Threads that stay: for loops so short that starting a thread would cost more than the work.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
@@ -32,7 +33,15 @@ class WorkerTeam {
     });
   }
 
+  // The same in at most kRanges ranges: so many that threads of unequal speed finish together, so
+  // few that a range is worth its start.
+  template <class Body>
+  void For(int count, const Body& body) {
+    For(count, std::max(1, (count + kRanges - 1) / kRanges), body);
+  }
+
  private:
+  static constexpr int kRanges = 32;
   using Call = void (*)(const void* body, int begin, int end);
 
   void Run(int count, int grain, const void* body, Call call);

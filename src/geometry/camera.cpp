@@ -39,7 +39,7 @@ void PinholeCamera::Describe(Fields& f) {
             .origin = Origin::kGuessed,
             .source = "image centre"});
   f.Number("cy", cy,
-           {.meaning = "principal point, row",
+           {.meaning = "principal point, row (pixel centres at whole numbers)",
             .unit = "px",
             .min = -1e5,
             .max = 1e5,

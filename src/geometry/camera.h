@@ -2,10 +2,18 @@
 // Pixel (0, 0) has its centre at u = 0, v = 0; depth is z, not ray length.
 #pragma once
 
+#include <optional>
+
 #include "config/settings.h"
 #include "math/rigid.h"
 
 namespace vitruvia {
+
+// Column and row of a pixel, from 0.
+struct Pixel {
+  int u, v;
+  bool operator==(const Pixel&) const = default;
+};
 
 struct PinholeCamera {
   int width = 320, height = 240;                          // pixels
@@ -24,14 +32,28 @@ struct PinholeCamera {
     return {(u - Scalar(cx)) / Scalar(fx) * z, (v - Scalar(cy)) / Scalar(fy) * z, z};
   }
 
-  // Whether a point lies before the camera and its pixel, rounded, in the image.
+  // The pixel whose square holds pixel coordinates (u, v): its left and upper edge belong to it.
+  // Nothing outside the image.
+  template <class Scalar>
+  std::optional<Pixel> PixelAt(const Eigen::Matrix<Scalar, 2, 1>& uv) const {
+    constexpr Scalar half(0.5);
+    if (!(uv.x() >= -half && uv.y() >= -half && uv.x() < Scalar(width) - half &&
+          uv.y() < Scalar(height) - half)) {
+      return std::nullopt;
+    }
+    return Pixel{static_cast<int>(uv.x() + half), static_cast<int>(uv.y() + half)};
+  }
+
+  // The pixel that a point falls on; nothing behind the camera or outside the image.
+  template <class Scalar>
+  std::optional<Pixel> PixelOf(const Vector3<Scalar>& point_in_camera) const {
+    if (!(point_in_camera.z() > Scalar(0))) return std::nullopt;
+    return PixelAt<Scalar>(Project(point_in_camera));
+  }
+
   template <class Scalar>
   bool InView(const Vector3<Scalar>& point_in_camera) const {
-    if (!(point_in_camera.z() > Scalar(0))) return false;
-    const auto pixel = Project(point_in_camera);
-    const Scalar half(0.5);
-    return pixel.x() > -half && pixel.y() > -half && pixel.x() < Scalar(width) - half &&
-           pixel.y() < Scalar(height) - half;
+    return PixelOf(point_in_camera).has_value();
   }
 
   void Describe(Fields& fields);

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 #include <fmt/format.h>
 
+#include "core/disjoint_sets.h"
 #include "geometry/half_edges.h"
 
 // Precision: vertices are float (0.1 µm at 1 m), as depth and skinning are. Whatever sums over a
@@ -40,20 +40,10 @@ std::string ShapeProblem(const TriangleMesh& mesh) {
 
 // Connected parts, of which a vertex without triangles is one.
 int CountComponents(const TriangleMesh& mesh) {
-  std::vector<int> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  DisjointSets sets(mesh.vertices.size());
   int components = static_cast<int>(mesh.vertices.size());
   for (const Triangle& t : mesh.triangles) {
-    for (const int other : {t[1], t[2]}) {
-      const int a = root(t[0]), b = root(other);
-      if (a == b) continue;
-      parent[a] = b;
-      --components;
-    }
+    for (const int other : {t[1], t[2]}) components -= sets.Join(t[0], other) ? 1 : 0;
   }
   return components;
 }
@@ -115,14 +105,16 @@ double EnclosedVolume(const TriangleMesh& mesh) {
   return six_volumes / 6.0;
 }
 
+Eigen::AlignedBox3f BoundingBox(const std::vector<Vector3f>& vertices) {
+  Eigen::AlignedBox3f box;
+  for (const Vector3f& v : vertices) box.extend(v);
+  return box;
+}
+
 double BoundingBoxDiagonal(const std::vector<Vector3f>& vertices) {
   if (vertices.empty()) return 0.0;
-  Vector3f low = vertices.front(), high = vertices.front();
-  for (const Vector3f& v : vertices) {
-    low = low.cwiseMin(v);
-    high = high.cwiseMax(v);
-  }
-  return (high.cast<double>() - low.cast<double>()).norm();
+  const Eigen::AlignedBox3f box = BoundingBox(vertices);
+  return (box.max().cast<double>() - box.min().cast<double>()).norm();
 }
 
 MeshReport InspectMesh(const TriangleMesh& mesh) {

@@ -33,7 +33,8 @@ void ComputeVertexNormals(const std::vector<Vector3f>& vertices,
                           const std::vector<Triangle>& triangles, std::vector<Vector3f>& normals);
 
 double EnclosedVolume(const TriangleMesh& mesh);  // m³, divergence theorem; mesh must be closed
-double BoundingBoxDiagonal(const std::vector<Vector3f>& vertices);  // metres
+Eigen::AlignedBox3f BoundingBox(const std::vector<Vector3f>& vertices);  // empty if there are none
+double BoundingBoxDiagonal(const std::vector<Vector3f>& vertices);       // metres
 
 // What a body mesh must be. `problem` is "" when the mesh is one closed, consistently oriented
 // 2-manifold of finite vertices without degenerate triangles.

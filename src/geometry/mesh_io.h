@@ -1,4 +1,4 @@
-// Mesh files: PLY, OBJ and OFF, by extension. Metres.
+// Mesh files: PLY, OBJ and OFF, told apart by the extension in any case. Metres.
 #pragma once
 
 #include <filesystem>
@@ -7,9 +7,14 @@
 
 namespace vitruvia {
 
-// DataError if the file is missing, damaged, has faces that are not triangles, indices out of
-// range, or vertices that are not finite.
+bool IsMeshFile(const std::filesystem::path& file);  // by its extension
+
+// What each format may hold is said in mesh_formats.h. DataError with file, line or byte, and cause
+// if the file is missing or damaged, has faces that are not triangles, indices out of range, or
+// vertices that are not finite.
 TriangleMesh ReadMesh(const std::filesystem::path& file);
+
+// PLY is written as little-endian binary. RunError if the file cannot be written.
 void WriteMesh(const std::filesystem::path& file, const TriangleMesh& mesh);
 
 }  // namespace vitruvia

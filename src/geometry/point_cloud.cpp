@@ -28,8 +28,10 @@ float SampleDepth(const DepthImage& depth, float u, float v, float smooth_within
     const int i = static_cast<int>(left), j = static_cast<int>(top);
     const float z00 = depth(i, j), z10 = depth(i + 1, j);
     const float z01 = depth(i, j + 1), z11 = depth(i + 1, j + 1);
-    const float low = std::min({z00, z10, z01, z11}), high = std::max({z00, z10, z01, z11});
-    if (low > 0.0f && high - low <= smooth_within_m) {
+    // Each is tested by itself: std::min and std::max skip a NaN that does not come first.
+    const bool measured = z00 > 0.0f && z10 > 0.0f && z01 > 0.0f && z11 > 0.0f;
+    const auto [low, high] = std::minmax({z00, z10, z01, z11});
+    if (measured && high - low <= smooth_within_m) {
       const float x = u - left, y = v - top;
       return (1.0f - y) * ((1.0f - x) * z00 + x * z10) + y * ((1.0f - x) * z01 + x * z11);
     }

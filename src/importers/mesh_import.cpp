@@ -24,9 +24,7 @@ std::vector<fs::path> FrameFiles(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const std::string extension = entry.path().extension().string();
-    if (extension == ".obj" || extension == ".ply" || extension == ".off")
-      files.push_back(entry.path());
+    if (IsMeshFile(entry.path())) files.push_back(entry.path());
   }
   if (files.empty())
     throw DataError(fmt::format("{}: expected a folder of .obj, .ply or .off files, found none",

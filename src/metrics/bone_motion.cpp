@@ -3,20 +3,13 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/SVD>
-
 #include "core/error.h"
+#include "math/rigid_fit.h"
 
 namespace vitruvia {
 namespace {
 
 constexpr int kFewestVertices = 3;
-
-Vector3d Mean(const std::vector<Vector3f>& points, const std::vector<int>& chosen) {
-  Vector3d sum = Vector3d::Zero();
-  for (const int i : chosen) sum += points[i].cast<double>();
-  return sum / static_cast<double>(chosen.size());
-}
 
 void RequireOneLength(std::size_t estimate, std::size_t truth) {
   Require(estimate == truth, "{} frames of rotations against {} true ones", estimate, truth);
@@ -40,13 +33,11 @@ BoneRotations RigidParts::Rotations(const std::vector<Vector3f>& posed) const {
   BoneRotations rotations(vertices_.size(), Matrix3<double>::Identity());
   for (std::size_t b = 0; b < vertices_.size(); ++b) {
     if (vertices_[b].size() < kFewestVertices) continue;
-    const Vector3d rest_mean = Mean(rest_, vertices_[b]), posed_mean = Mean(posed, vertices_[b]);
-    Matrix3<double> covariance = Matrix3<double>::Zero();
-    for (const int i : vertices_[b]) {
-      covariance += (posed[i].cast<double>() - posed_mean) *
-                    (rest_[i].cast<double>() - rest_mean).transpose();
-    }
-    rotations[b] = NearestRotation(covariance);
+    const auto pair_at = [&](std::size_t k) {
+      const int i = vertices_[b][k];
+      return PointPair{rest_[i].cast<double>(), posed[i].cast<double>()};
+    };
+    rotations[b] = FitRigid(vertices_[b].size(), pair_at).rotation;
   }
   return rotations;
 }

@@ -41,10 +41,9 @@ std::vector<bool> VisiblePoints(const std::vector<Vector3f>& points,
   std::vector<bool> visible(points.size(), false);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vector3f& point = points[i];
-    if (!camera.InView(point)) continue;
-    const auto pixel = camera.Project(point);
-    const float front = rendered_truth(static_cast<int>(std::lround(pixel.x())),
-                                       static_cast<int>(std::lround(pixel.y())));
+    const auto pixel = camera.PixelOf(point);
+    if (!pixel) continue;
+    const float front = rendered_truth(pixel->u, pixel->v);
     visible[i] = front == 0.0f || double{point.z()} <= double{front} + visible_within_m;
   }
   return visible;

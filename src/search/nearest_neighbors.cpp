@@ -1,8 +1,9 @@
 #include "search/nearest_neighbors.h"
 
-#include <algorithm>
-#include <cmath>
+#include <array>
 #include <limits>
+
+#include "search/pixel_grid.h"
 
 namespace vitruvia {
 namespace {
@@ -73,87 +74,20 @@ class ExhaustiveNeighbors final : public NearestNeighbors {
   std::vector<float> x_, y_, z_;
 };
 
-// Points sorted into square cells of the image (counting sort, so that each cell is a range).
 class WindowNeighbors final : public NearestNeighbors {
  public:
   WindowNeighbors(const PinholeCamera& camera, int window_px)
-      : camera_(camera),
-        window_px_(window_px),
-        columns_((camera.width + kCellPx - 1) / kCellPx),
-        rows_((camera.height + kCellPx - 1) / kCellPx) {}
+      : grid_(camera), window_px_(window_px) {}
 
-  void Build(const std::vector<Vector3f>& points) override {
-    const std::size_t cells = static_cast<std::size_t>(columns_) * rows_;
-    first_.assign(cells + 2, 0);
-    cell_of_.resize(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      cell_of_[i] = CellOf(points[i]);
-      if (cell_of_[i] >= 0) ++first_[cell_of_[i] + 2];
-    }
-    for (std::size_t cell = 2; cell < first_.size(); ++cell) first_[cell] += first_[cell - 1];
-    sorted_.resize(first_.back());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (cell_of_[i] >= 0) {
-        sorted_[first_[cell_of_[i] + 1]++] = {points[i], static_cast<std::int32_t>(i)};
-      }
-    }
-  }
-
+  void Build(const std::vector<Vector3f>& points) override { grid_.Build(points); }
   void FindNearest(const std::vector<Vector3f>& queries, float max_distance_m,
                    std::vector<KdTree::Neighbor>& neighbors) const override {
-    neighbors.assign(queries.size(), {});
-    if (first_.empty()) return;
-    for (std::size_t q = 0; q < queries.size(); ++q) {
-      neighbors[q] = Nearest(queries[q], max_distance_m);
-    }
+    grid_.FindNearest(queries, max_distance_m, window_px_, neighbors);
   }
 
  private:
-  static constexpr int kCellPx = 4;
-  struct Entry {
-    Vector3f point;
-    std::int32_t index;
-  };
-
-  int CellOf(const Vector3f& point) const {
-    if (!(point.z() > 0.0f)) return -1;
-    const auto pixel = camera_.Project(point);
-    if (!(pixel.x() >= -0.5f && pixel.y() >= -0.5f &&
-          pixel.x() < static_cast<float>(camera_.width) - 0.5f &&
-          pixel.y() < static_cast<float>(camera_.height) - 0.5f)) {
-      return -1;
-    }
-    const int u = static_cast<int>(pixel.x() + 0.5f), v = static_cast<int>(pixel.y() + 0.5f);
-    return v / kCellPx * columns_ + u / kCellPx;
-  }
-
-  KdTree::Neighbor Nearest(const Vector3f& query, float max_distance_m) const {
-    KdTree::Neighbor nearest{-1, max_distance_m * max_distance_m};
-    const int cell = CellOf(query);
-    if (cell < 0) return {};
-    const float reach_px = max_distance_m * static_cast<float>(camera_.fx) / query.z();
-    const int half_px = static_cast<int>(std::min(reach_px, static_cast<float>(window_px_)));
-    const int reach = (half_px + kCellPx - 1) / kCellPx;
-    const int column = cell % columns_, row = cell / columns_;
-    for (int y = std::max(row - reach, 0); y <= std::min(row + reach, rows_ - 1); ++y) {
-      const int left = y * columns_ + std::max(column - reach, 0);
-      const int right = y * columns_ + std::min(column + reach, columns_ - 1);
-      for (int k = first_[left]; k < first_[right + 1]; ++k) {
-        const float squared = (sorted_[k].point - query).squaredNorm();
-        const bool wins = squared < nearest.squared_distance ||
-                          (squared == nearest.squared_distance &&
-                           (nearest.index < 0 || sorted_[k].index < nearest.index));
-        if (wins) nearest = {sorted_[k].index, squared};
-      }
-    }
-    return nearest.index < 0 ? KdTree::Neighbor{} : nearest;
-  }
-
-  PinholeCamera camera_;
-  int window_px_, columns_, rows_;
-  std::vector<int> first_;    // entry at which each cell begins
-  std::vector<int> cell_of_;  // of each point, -1: out of view
-  std::vector<Entry> sorted_;
+  PixelGrid grid_;
+  int window_px_;
 };
 
 }  // namespace

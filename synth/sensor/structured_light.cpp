@@ -60,27 +60,29 @@ void StructuredLightSettings::Describe(Fields& f) {
             .max = 1,
             .origin = Origin::kPaper,
             .source = kNguyen});
-  f.Number("axial_growth_per_m", axial_growth_per_m,
-           {.meaning = "its growth with the square of the distance from axial_near_m",
-            .unit = "1/m",
-            .min = 0,
-            .max = 1,
-            .origin = Origin::kPaper,
-            .source = kNguyen});
+  f.Number(
+      "axial_growth_per_m", axial_growth_per_m,
+      {.meaning = "growth of the depth noise with the square of the distance from axial_near_m",
+       .unit = "1/m",
+       .min = 0,
+       .max = 1,
+       .origin = Origin::kPaper,
+       .source = kNguyen});
   f.Number("axial_near_m", axial_near_m,
-           {.meaning = "where depth is best",
+           {.meaning = "distance at which depth is most accurate",
             .unit = "m",
             .min = 0,
             .max = 10,
             .origin = Origin::kPaper,
             .source = kNguyen});
-  f.Number("axial_slope", axial_slope,
-           {.meaning = "factor of θ² / (π/2 − θ)² / √z",
-            .unit = "m^1.5",
-            .min = 0,
-            .max = 1,
-            .origin = Origin::kPaper,
-            .source = kNguyen});
+  f.Number(
+      "axial_slope", axial_slope,
+      {.meaning = "factor of the depth noise's term in the viewing angle θ, θ² / (π/2 − θ)² / √z",
+       .unit = "m^1.5",
+       .min = 0,
+       .max = 1,
+       .origin = Origin::kPaper,
+       .source = kNguyen});
   f.Number("lateral_base_px", lateral_base_px,
            {.meaning = "standard deviation of an edge's place, in the sensor's own pixels",
             .unit = "px",
@@ -89,7 +91,7 @@ void StructuredLightSettings::Describe(Fields& f) {
             .origin = Origin::kPaper,
             .source = kNguyen});
   f.Number("lateral_slope_px", lateral_slope_px,
-           {.meaning = "its growth with θ / (π/2 − θ)",
+           {.meaning = "growth of the edge noise with the viewing angle θ, factor of θ / (π/2 − θ)",
             .unit = "px",
             .min = 0,
             .max = 20,
@@ -111,14 +113,15 @@ void StructuredLightSettings::Describe(Fields& f) {
             .origin = Origin::kPaper,
             .source = "Khoshelham & Elberink 2012: 7.5 cm"});
   f.Number("disparity_step_px", disparity_step_px,
-           {.meaning = "step of disparity",
+           {.meaning = "quantisation step of disparity",
             .unit = "px",
             .min = 1e-6,
             .max = 8,
             .origin = Origin::kPaper,
             .source = "Khoshelham & Elberink 2012: 1/8, which is 2.6 cm at 3 m"});
   f.Number("shadow_margin_m", shadow_margin_m,
-           {.meaning = "the projector misses a surface this far behind the one it meets first",
+           {.meaning =
+                "depth behind the first surface from which on the projector's light does not reach",
             .unit = "m",
             .min = 0,
             .max = 1,
@@ -138,14 +141,14 @@ void StructuredLightSettings::Describe(Fields& f) {
             .origin = Origin::kGuessed,
             .source = "about the largest angle of Nguyen's measurements"});
   f.Number("min_depth_m", min_depth_m,
-           {.meaning = "nothing nearer is measured",
+           {.meaning = "minimum distance that is measured",
             .unit = "m",
             .min = 0,
             .max = 100,
             .origin = Origin::kGuessed,
             .source = "the camera's near mode"});
   f.Number("max_depth_m", max_depth_m,
-           {.meaning = "nothing farther is measured",
+           {.meaning = "maximum distance that is measured",
             .unit = "m",
             .min = 0.1,
             .max = 100,

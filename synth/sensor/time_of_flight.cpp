@@ -48,20 +48,21 @@ void TimeOfFlightSettings::Describe(Fields& f) {
             .origin = Origin::kGuessed,
             .source = kFankhauser});
   f.Number("axial_linear", axial_linear,
-           {.meaning = "factor of z",
+           {.meaning = "standard deviation of depth: factor of the distance z",
             .min = -1,
             .max = 1,
             .origin = Origin::kGuessed,
             .source = kFankhauser});
   f.Number("axial_square_per_m", axial_square_per_m,
-           {.meaning = "factor of z²",
+           {.meaning = "standard deviation of depth: factor of z²",
             .unit = "1/m",
             .min = 0,
             .max = 1,
             .origin = Origin::kGuessed,
             .source = kFankhauser});
   f.Number("axial_slope", axial_slope,
-           {.meaning = "factor of z^1.5 θ² / (π/2 − θ)²",
+           {.meaning =
+                "standard deviation of depth: factor of z^1.5 θ² / (π/2 − θ)², θ the viewing angle",
             .unit = "m^-0.5",
             .min = 0,
             .max = 1,
@@ -69,7 +70,7 @@ void TimeOfFlightSettings::Describe(Fields& f) {
             .source = kFankhauser});
   f.Number(
       "rim_power", rim_power,
-      {.meaning = "deviations grow by 1 / cos(φ)^rim_power towards the rim of the field",
+      {.meaning = "the noise grows by 1 / cos(φ)^rim_power, φ the angle to the optical axis",
        .min = 0,
        .max = 10,
        .origin = Origin::kGuessed,
@@ -97,14 +98,14 @@ void TimeOfFlightSettings::Describe(Fields& f) {
             .origin = Origin::kGuessed,
             .source = kFankhauser});
   f.Number("min_depth_m", min_depth_m,
-           {.meaning = "nothing nearer is measured",
+           {.meaning = "minimum distance that is measured",
             .unit = "m",
             .min = 0,
             .max = 100,
             .origin = Origin::kPaper,
             .source = "the camera's data sheet: 0.5 m"});
   f.Number("max_depth_m", max_depth_m,
-           {.meaning = "nothing farther is measured",
+           {.meaning = "maximum distance that is measured",
             .unit = "m",
             .min = 0.1,
             .max = 100,

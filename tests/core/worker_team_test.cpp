@@ -1,6 +1,8 @@
 #include "core/worker_team.h"
 
+#include <algorithm>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -23,6 +25,24 @@ TEST(WorkerTeam, VisitsEveryItemOnce) {
         EXPECT_EQ(visits, std::vector<int>(count, 1)) << threads << " " << count << " " << grain;
       }
     }
+  }
+}
+
+TEST(WorkerTeam, ChoosesRangesByTheCountAlone) {
+  const auto begins = [](int count, int threads) {
+    WorkerTeam team(threads);
+    std::vector<int> begin_of(count, -1);
+    team.For(count, [&](int begin, int end) {
+      for (int i = begin; i < end; ++i) begin_of[i] = begin;
+    });
+    return begin_of;
+  };
+  for (const int count : {0, 1, 5, 32, 33, 12345}) {
+    const std::vector<int> alone = begins(count, 1);
+    EXPECT_EQ(std::count(alone.begin(), alone.end(), -1), 0);
+    EXPECT_LE((std::set<int>(alone.begin(), alone.end()).size()), 32u);
+    EXPECT_EQ(begins(count, 2), alone);
+    EXPECT_EQ(begins(count, 7), alone);
   }
 }
 
@@ -65,6 +85,7 @@ TEST(WorkerTeam, RefusesNoThreadsAndNoGrain) {
   EXPECT_THROW(WorkerTeam(0), std::invalid_argument);
   WorkerTeam team(1);
   EXPECT_THROW(team.For(3, 0, [](int, int) {}), std::invalid_argument);
+  EXPECT_THROW(team.For(-1, [](int, int) {}), std::invalid_argument);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ const Vector3d kCenter(0.02, 0.01, 0.0);
 ModelView ExactModel(const Rigidd& camera_from_subject) {
   const PinholeCamera camera = SmallCamera();
   const DepthImage depth = ViewOf(Cluster(), camera, camera_from_subject);
-  PointMap map = MakePointMap(depth, depth, camera, 0.05, 1);
+  PointMap map = MakePointMap(depth, depth, camera, 0.05, Team(1));
   const Rigidf subject_from_camera = Inverse(camera_from_subject).Cast<float>();
   for (Vector3f& p : map.points.pixels()) p = subject_from_camera * p;
   for (Vector3f& n : map.normals.pixels()) n = subject_from_camera.rotation * n;
@@ -27,7 +27,7 @@ std::vector<PointMap> FramePyramid(const Rigidd& camera_from_subject, int levels
   DepthImage depth = ViewOf(Cluster(), camera, camera_from_subject);
   std::vector<PointMap> pyramid;
   for (int level = 0; level < levels; ++level) {
-    pyramid.push_back(MakePointMap(depth, depth, camera, 0.05, 1));
+    pyramid.push_back(MakePointMap(depth, depth, camera, 0.05, Team(1)));
     depth = Halved(depth, 0.05);
     camera = Halved(camera);
   }
@@ -41,7 +41,7 @@ TEST(Alignment, FindsAKnownMotion) {
   AlignmentSettings settings;
   settings.iterations = {20, 5, 5};
   const AlignmentResult result = Align(FramePyramid(kSecondView, 3), ExactModel(kFirstView),
-                                       Inverse(kFirstView), kCenter, settings, 2);
+                                       Inverse(kFirstView), kCenter, settings, Team(2));
   const Rigidd error = kSecondView * result.subject_from_camera;
   EXPECT_LT(LogSo3<double>(error.rotation).norm(), 0.1 * kRadiansPerDegree);
   EXPECT_LT(error.translation.norm(), 1.5e-3);
@@ -55,7 +55,7 @@ TEST(Alignment, StaysWhereItIsRight) {
   AlignmentSettings settings;
   settings.iterations = {5};
   const AlignmentResult result = Align(FramePyramid(kFirstView, 1), ExactModel(kFirstView),
-                                       Inverse(kFirstView), kCenter, settings, 1);
+                                       Inverse(kFirstView), kCenter, settings, Team(1));
   const Rigidd moved = kFirstView * result.subject_from_camera;
   EXPECT_LT(moved.translation.norm(), 1e-5);
   EXPECT_LT(LogSo3<double>(moved.rotation).norm(), 1e-5);
@@ -70,7 +70,8 @@ TEST(Alignment, SystemAgreesWithDifferences) {
   const PointMap frame = FramePyramid(kSecondView, 1).front();
   const Rigidd pose = Inverse(kFirstView);
   AlignmentSettings settings;
-  const PointToPlaneSystem system = MatchPointToPlane(frame, model, pose, kCenter, settings, 1);
+  const PointToPlaneSystem system =
+      MatchPointToPlane(frame, model, pose, kCenter, settings, Team(1));
 
   struct Pair {
     Vector3d q, m, n;
@@ -126,22 +127,23 @@ TEST(Alignment, SystemAgreesWithDifferences) {
 TEST(Alignment, PlaneLeavesThreeDirectionsOpen) {
   const PinholeCamera camera = SmallCamera();
   const DepthImage depth = ViewOfPlane(camera, kFirstView);
-  const PointMap frame = MakePointMap(depth, depth, camera, 0.05, 1);
+  const PointMap frame = MakePointMap(depth, depth, camera, 0.05, Team(1));
   ModelView model{frame, camera, kFirstView};
   const Rigidf subject_from_camera = Inverse(kFirstView).Cast<float>();
   for (Vector3f& p : model.surface.points.pixels()) p = subject_from_camera * p;
   for (Vector3f& n : model.surface.normals.pixels()) n = subject_from_camera.rotation * n;
   AlignmentSettings settings;
   settings.iterations = {3};
-  const AlignmentResult result = Align({frame}, model, Inverse(kFirstView), kCenter, settings, 1);
+  const AlignmentResult result =
+      Align({frame}, model, Inverse(kFirstView), kCenter, settings, Team(1));
   EXPECT_GT(result.condition, 1e6);
 }
 
 TEST(Alignment, SystemIsTheSameForAnyNumberOfThreads) {
   const ModelView model = ExactModel(kFirstView);
   const PointMap frame = FramePyramid(kSecondView, 1).front();
-  const auto one = MatchPointToPlane(frame, model, Inverse(kFirstView), kCenter, {}, 1);
-  const auto five = MatchPointToPlane(frame, model, Inverse(kFirstView), kCenter, {}, 5);
+  const auto one = MatchPointToPlane(frame, model, Inverse(kFirstView), kCenter, {}, Team(1));
+  const auto five = MatchPointToPlane(frame, model, Inverse(kFirstView), kCenter, {}, Team(5));
   EXPECT_EQ(one.a, five.a);
   EXPECT_EQ(one.b, five.b);
   EXPECT_EQ(one.squared_error_m2, five.squared_error_m2);

@@ -1,6 +1,7 @@
 #include "learning_scan/analytic_views.h"
 
 #include <cmath>
+#include <map>
 
 #include "geometry/zbuffer.h"
 
@@ -75,6 +76,11 @@ std::vector<Ball> Cluster() {
           {{-0.16, 0.14, 0.06}, 0.10},
           {{0.03, -0.2, 0.05}, 0.08},
           {{-0.05, 0.22, -0.05}, 0.07}};
+}
+
+WorkerTeam& Team(int threads) {
+  static std::map<int, WorkerTeam> teams;
+  return teams.try_emplace(threads, threads).first->second;
 }
 
 }  // namespace vitruvia

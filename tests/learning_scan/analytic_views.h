@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/worker_team.h"
 #include "geometry/camera.h"
 #include "geometry/image.h"
 #include "geometry/mesh.h"
@@ -35,5 +36,8 @@ VolumeSettings SmallVolume(double half_m, double voxel_m, double truncation_m);
 
 // The figure that alignment is tried on: balls at places that no rotation maps to each other.
 std::vector<Ball> Cluster();
+
+// A team of that many threads, made once. MatchPointToPlane and others take one.
+WorkerTeam& Team(int threads);
 
 }  // namespace vitruvia

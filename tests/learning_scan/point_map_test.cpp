@@ -12,7 +12,7 @@ TEST(PointMap, HasThePlanesPointsAndNormals) {
   const Rigidd camera_from_subject = CameraLookingAt({0.4, 0.3, 1.2}, {0, 0, 0});
   const Rigidd subject_from_camera = Inverse(camera_from_subject);
   const DepthImage depth = ViewOfPlane(camera, camera_from_subject);
-  const PointMap map = MakePointMap(depth, depth, camera, 0.05, 2);
+  const PointMap map = MakePointMap(depth, depth, camera, 0.05, Team(2));
   for (int v = 10; v < 110; v += 10) {
     for (int u = 10; u < 150; u += 10) {
       const Vector3d point = subject_from_camera * map.points(u, v).cast<double>().eval();
@@ -29,7 +29,7 @@ TEST(PointMap, NormalsDoNotReachAcrossAJump) {
     for (int u = 4; u < 8; ++u) depth(u, v) = 2.0f;
   }
   const PinholeCamera camera{8, 8, 10.0, 10.0, 3.5, 3.5};
-  const PointMap map = MakePointMap(depth, depth, camera, 0.1, 1);
+  const PointMap map = MakePointMap(depth, depth, camera, 0.1, Team(1));
   for (int u = 0; u < 8; ++u) {
     EXPECT_NEAR(map.normals(u, 3).z(), -1.0f, 1e-6f) << "column " << u;
   }
@@ -38,7 +38,7 @@ TEST(PointMap, NormalsDoNotReachAcrossAJump) {
 TEST(PointMap, LonelyPixelsHaveNoNormal) {
   DepthImage depth(5, 5);
   depth(2, 2) = 1.0f;
-  const PointMap map = MakePointMap(depth, depth, {5, 5, 5, 5, 2, 2}, 0.1, 1);
+  const PointMap map = MakePointMap(depth, depth, {5, 5, 5, 5, 2, 2}, 0.1, Team(1));
   EXPECT_FALSE(map.Has(2, 2));
   EXPECT_FALSE(map.Has(0, 0));
 }
@@ -49,7 +49,7 @@ TEST(Smoothed, KeepsEvenDepthAndEdgesAndLessensNoise) {
     for (int u = 10; u < 20; ++u) even(u, v) = 2.5f;
   }
   const SmoothingSettings settings{.sigma_px = 1.5, .sigma_m = 0.02};
-  const DepthImage same = Smoothed(even, settings, 2);
+  const DepthImage same = Smoothed(even, settings, Team(2));
   for (std::size_t i = 0; i < even.pixels().size(); ++i) {
     EXPECT_NEAR(same.pixels()[i], even.pixels()[i], 1e-6f);
   }
@@ -57,7 +57,7 @@ TEST(Smoothed, KeepsEvenDepthAndEdgesAndLessensNoise) {
   for (int v = 0; v < 20; ++v) {
     for (int u = 0; u < 20; ++u) checkered(u, v) = (u + v) % 2 == 0 ? 1.0f : 1.01f;
   }
-  const DepthImage calm = Smoothed(checkered, settings, 1);
+  const DepthImage calm = Smoothed(checkered, settings, Team(1));
   EXPECT_NEAR(calm(10, 10), 1.005f, 0.001f);
   EXPECT_NEAR(calm(11, 10), 1.005f, 0.001f);
 }

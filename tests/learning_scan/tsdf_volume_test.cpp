@@ -12,8 +12,8 @@ namespace {
 
 void Fuse(TsdfVolume& volume, const DepthImage& depth, const PinholeCamera& camera,
           const Rigidd& camera_from_subject, int threads = 1) {
-  volume.Integrate(depth, MakePointMap(depth, depth, camera, 0.05, threads), camera,
-                   Inverse(camera_from_subject), threads);
+  volume.Integrate(depth, MakePointMap(depth, depth, camera, 0.05, Team(threads)), camera,
+                   Inverse(camera_from_subject), Team(threads));
 }
 
 // A ball of radius 0.2 m seen from `views` sides and half from above.
@@ -78,7 +78,7 @@ TEST(TsdfVolume, RaycastFindsTheBall) {
   const PinholeCamera camera = SmallCamera();
   const Rigidd subject_from_camera = Inverse(CameraLookingAt({0.5, 0.2, 0.6}, {0, 0, 0}));
   const DepthImage truth = ViewOf({{{0, 0, 0}, 0.2}}, camera, Inverse(subject_from_camera));
-  const PointMap map = volume.Raycast(camera, subject_from_camera, 2);
+  const PointMap map = volume.Raycast(camera, subject_from_camera, Team(2));
   int seen = 0, expected = 0;
   for (int v = 0; v < camera.height; ++v) {
     for (int u = 0; u < camera.width; ++u) {

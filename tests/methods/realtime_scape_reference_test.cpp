@@ -12,8 +12,8 @@
 #include "methods/realtime_scape/terms/fit_term.h"
 #include "methods/realtime_scape/terms/inertia_term.h"
 #include "methods/realtime_scape/terms/joint_term.h"
-#include "solver/ceres_adaptor.h"
 #include "solver/linear_solver.h"
+#include "support/ceres_adaptor.h"
 
 namespace vitruvia::realtime_scape {
 namespace {

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "solver/ceres_adaptor.h"
 #include "solver/conjugate_gradients.h"
+#include "support/ceres_adaptor.h"
 
 namespace vitruvia {
 namespace {

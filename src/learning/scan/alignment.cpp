@@ -6,7 +6,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-#include "core/parallel.h"
 #include "math/angles.h"
 
 namespace vitruvia {
@@ -39,17 +38,14 @@ PointToPlaneSystem MatchRow(const PointMap& frame, int v, const ModelView& model
   for (int u = 0; u < frame.points.width(); ++u) {
     if (!frame.Has(u, v)) continue;
     const Vector3f in_model_camera = model_camera_from_camera * frame.points(u, v);
-    if (in_model_camera.z() <= 0.0f) continue;
-    const Eigen::Vector2f pixel = model.camera.Project(in_model_camera);
-    if (!(pixel.x() >= -0.5f && pixel.y() >= -0.5f)) continue;
-    const int mu = static_cast<int>(pixel.x() + 0.5f), mv = static_cast<int>(pixel.y() + 0.5f);
-    if (!model.surface.points.Contains(mu, mv)) continue;
+    const auto at = model.camera.PixelOf(in_model_camera);
+    if (!at) continue;
     ++system.tried;
-    if (!model.surface.Has(mu, mv)) continue;
+    if (!model.surface.Has(at->u, at->v)) continue;
     const Vector3f point = subject_from_camera * frame.points(u, v);
-    const Vector3f difference = point - model.surface.points(mu, mv);
+    const Vector3f difference = point - model.surface.points(at->u, at->v);
     if (difference.squaredNorm() > gates.squared_distance_m2) continue;
-    const Vector3f& normal = model.surface.normals(mu, mv);
+    const Vector3f& normal = model.surface.normals(at->u, at->v);
     if ((subject_from_camera.rotation * frame.normals(u, v)).dot(normal) < gates.cosine) continue;
     Vector6d row;
     row << (point - center).cross(normal).cast<double>(), normal.cast<double>();
@@ -74,11 +70,11 @@ void PointToPlaneSystem::Add(const PointToPlaneSystem& other) {
 
 PointToPlaneSystem MatchPointToPlane(const PointMap& frame, const ModelView& model,
                                      const Rigidd& subject_from_camera, const Vector3d& center,
-                                     const AlignmentSettings& settings, int threads) {
+                                     const AlignmentSettings& settings, WorkerTeam& team) {
   const Gates gates{static_cast<float>(settings.max_distance_m * settings.max_distance_m),
                     static_cast<float>(std::cos(settings.max_angle_deg * kRadiansPerDegree))};
   std::vector<PointToPlaneSystem> rows(static_cast<std::size_t>(frame.points.height()));
-  ParallelFor(frame.points.height(), threads, [&](int begin, int end) {
+  team.For(frame.points.height(), [&](int begin, int end) {
     for (int v = begin; v < end; ++v) {
       rows[static_cast<std::size_t>(v)] =
           MatchRow(frame, v, model, subject_from_camera.Cast<float>(), center.cast<float>(), gates);
@@ -98,14 +94,14 @@ Rigidd Stepped(const Rigidd& subject_from_camera, const Vector6d& step, const Ve
 
 AlignmentResult Align(const std::vector<PointMap>& pyramid, const ModelView& model,
                       const Rigidd& subject_from_camera_guess, const Vector3d& center,
-                      const AlignmentSettings& settings, int threads) {
+                      const AlignmentSettings& settings, WorkerTeam& team) {
   AlignmentResult result;
   result.subject_from_camera = subject_from_camera_guess;
   PointToPlaneSystem system;
   for (std::size_t level = pyramid.size(); level-- > 0;) {
     for (int i = 0; i < settings.iterations[level]; ++i) {
       system = MatchPointToPlane(pyramid[level], model, result.subject_from_camera, center,
-                                 settings, threads);
+                                 settings, team);
       const Eigen::LDLT<Matrix6d> factor(system.a);
       if (system.matched < 6 || factor.info() != Eigen::Success || !factor.isPositive()) break;
       const Vector6d step = -factor.solve(system.b);

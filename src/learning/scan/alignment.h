@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "core/worker_team.h"
 #include "geometry/camera.h"
 #include "learning/scan/point_map.h"
 
@@ -36,7 +37,7 @@ struct PointToPlaneSystem {
 // drops pairs that are too far apart or whose normals differ too much. Sums are in a fixed order.
 PointToPlaneSystem MatchPointToPlane(const PointMap& frame, const ModelView& model,
                                      const Rigidd& subject_from_camera, const Vector3d& center,
-                                     const AlignmentSettings& settings, int threads);
+                                     const AlignmentSettings& settings, WorkerTeam& team);
 
 // The pose after the step x about `center`.
 Rigidd Stepped(const Rigidd& subject_from_camera, const Vector6d& step, const Vector3d& center);
@@ -52,6 +53,6 @@ struct AlignmentResult {
 // Coarse to fine. `pyramid` holds the frame's point maps (camera frame), finest first.
 AlignmentResult Align(const std::vector<PointMap>& pyramid, const ModelView& model,
                       const Rigidd& subject_from_camera_guess, const Vector3d& center,
-                      const AlignmentSettings& settings, int threads);
+                      const AlignmentSettings& settings, WorkerTeam& team);
 
 }  // namespace vitruvia

@@ -8,7 +8,7 @@ namespace vitruvia {
 
 void BodyCheckSettings::Describe(Fields& f) {
   f.Number("min_area_m2", min_area_m2,
-           {.meaning = "a surface with less area is no body",
+           {.meaning = "minimum area of a surface that counts as a body",
             .unit = "m²",
             .min = 0.0,
             .max = 10.0,
@@ -21,14 +21,14 @@ void BodyCheckSettings::Describe(Fields& f) {
             .origin = Origin::kGuessed,
             .source = "a leg has 0.18 of a body's surface"});
   f.Number("head_reach_m", head_reach_m,
-           {.meaning = "holes within this distance of the top are looked at as holes for a head",
+           {.meaning = "distance from the top within which a hole counts as a missing head",
             .unit = "m",
             .min = 0.0,
             .max = 1.0,
             .origin = Origin::kGuessed,
             .source = "above the chin: what lies below may be hidden by it"});
   f.Number("max_head_hole_m2", max_head_hole_m2,
-           {.meaning = "a larger opening there is a hole for a head",
+           {.meaning = "an opening near the top that is larger than this counts as a missing head",
             .unit = "m²",
             .min = 0.0,
             .max = 1.0,
@@ -45,14 +45,14 @@ void RequireOneWholeBody(const ScanSurface& surface, const BodyCheckSettings& se
         area_m2, settings.min_area_m2));
   }
   if (found.size() > 1 && found[1].area_m2 >= settings.second_body_share * area_m2) {
-    const Vector3f a = 0.5f * (found[0].low + found[0].high);
-    const Vector3f b = 0.5f * (found[1].low + found[1].high);
+    const Vector3f a = found[0].box.center();
+    const Vector3f b = found[1].box.center();
     throw DataError(fmt::format(
         "scan: two bodies: surfaces of {:.2f} m² round ({:.2f}, {:.2f}, {:.2f}) and of {:.2f} m² "
         "round ({:.2f}, {:.2f}, {:.2f}); expected one",
         area_m2, a.x(), a.y(), a.z(), found[1].area_m2, b.x(), b.y(), b.z()));
   }
-  float top = found.front().low.y();
+  float top = found.front().box.min().y();
   for (const Vector3f& p : surface.mesh.vertices) top = std::max(top, p.y());
   for (const BoundaryLoop& hole : surface.holes) {
     if (hole.center.y() < top - static_cast<float>(settings.head_reach_m) ||

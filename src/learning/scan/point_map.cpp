@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/parallel.h"
-
 namespace vitruvia {
 namespace {
 
@@ -33,7 +31,7 @@ Vector3f Slope(const Image<Vector3f>& points, int u, int v, int du, int dv, floa
 
 }  // namespace
 
-DepthImage Smoothed(const DepthImage& depth, const SmoothingSettings& settings, int threads) {
+DepthImage Smoothed(const DepthImage& depth, const SmoothingSettings& settings, WorkerTeam& team) {
   const int reach = static_cast<int>(std::ceil(kReachInSigmas * settings.sigma_px));
   if (settings.sigma_px == 0.0) return depth;
   std::vector<float> in_image;  // weights of the window
@@ -45,7 +43,7 @@ DepthImage Smoothed(const DepthImage& depth, const SmoothingSettings& settings, 
   }
   const auto per_metre = static_cast<float>(1.0 / settings.sigma_m);
   DepthImage smooth(depth.width(), depth.height());
-  ParallelFor(depth.height(), threads, [&](int begin, int end) {
+  team.For(depth.height(), [&](int begin, int end) {
     for (int v = begin; v < end; ++v) {
       for (int u = 0; u < depth.width(); ++u) {
         const float here = depth(u, v);
@@ -101,7 +99,7 @@ PinholeCamera Halved(const PinholeCamera& camera) {
 }
 
 PointMap MakePointMap(const DepthImage& depth, const DepthImage& smooth_depth,
-                      const PinholeCamera& camera, double depth_jump_m, int threads) {
+                      const PinholeCamera& camera, double depth_jump_m, WorkerTeam& team) {
   const int width = depth.width(), height = depth.height();
   const auto jump = static_cast<float>(depth_jump_m);
   PointMap map{Image<Vector3f>(width, height, Vector3f::Zero()),
@@ -115,7 +113,7 @@ PointMap MakePointMap(const DepthImage& depth, const DepthImage& smooth_depth,
       smooth(u, v) = camera.Unproject(x, y, smooth_depth(u, v));
     }
   }
-  ParallelFor(height, threads, [&](int begin, int end) {
+  team.For(height, [&](int begin, int end) {
     for (int v = begin; v < end; ++v) {
       for (int u = 0; u < width; ++u) {
         if (depth(u, v) <= 0.0f) continue;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/worker_team.h"
 #include "geometry/camera.h"
 #include "geometry/image.h"
 #include "geometry/mesh.h"
@@ -20,7 +21,7 @@ struct PointMap {
 
 // Depth smoothed but for its edges (Tomasi & Manduchi 1998; KF, eq. 2). A sigma of 0 leaves it as
 // it is.
-DepthImage Smoothed(const DepthImage& depth, const SmoothingSettings& settings, int threads);
+DepthImage Smoothed(const DepthImage& depth, const SmoothingSettings& settings, WorkerTeam& team);
 
 // Half the resolution: each pixel the mean of those of its four that lie within jump_m of the
 // nearest one (KF, sec. 3.2).
@@ -33,6 +34,6 @@ PinholeCamera Halved(const PinholeCamera& camera);
 // differences to the neighbours on either side, or to one of them where the other lies beyond a
 // jump of depth_jump_m or has no depth.
 PointMap MakePointMap(const DepthImage& depth, const DepthImage& smooth_depth,
-                      const PinholeCamera& camera, double depth_jump_m, int threads);
+                      const PinholeCamera& camera, double depth_jump_m, WorkerTeam& team);
 
 }  // namespace vitruvia

@@ -35,12 +35,13 @@ ScanFusion::ScanFusion(const ScanFusionSettings& settings, const PinholeCamera& 
       camera_(camera),
       center_(MiddleOf(settings.volume)),
       volume_(settings.volume),
-      subject_from_camera_(subject_from_first_camera) {}
+      subject_from_camera_(subject_from_first_camera),
+      team_(std::make_unique<WorkerTeam>(settings.threads)) {}
 
 std::vector<PointMap> ScanFusion::Pyramid(const DepthImage& depth) const {
   const double jump_m = settings_.volume.depth_jump_m;
   DepthImage level_depth = depth;
-  DepthImage smooth_depth = Smoothed(depth, settings_.smoothing, settings_.threads);
+  DepthImage smooth_depth = Smoothed(depth, settings_.smoothing, *team_);
   PinholeCamera camera = camera_;
   std::vector<PointMap> pyramid;
   for (std::size_t level = 0; level < settings_.alignment.iterations.size(); ++level) {
@@ -49,7 +50,7 @@ std::vector<PointMap> ScanFusion::Pyramid(const DepthImage& depth) const {
       smooth_depth = Halved(smooth_depth, jump_m);
       camera = Halved(camera);
     }
-    pyramid.push_back(MakePointMap(level_depth, smooth_depth, camera, jump_m, settings_.threads));
+    pyramid.push_back(MakePointMap(level_depth, smooth_depth, camera, jump_m, *team_));
   }
   return pyramid;
 }
@@ -101,8 +102,8 @@ FusedFrame ScanFusion::FuseFrame(const DepthImage& depth) {
     return fused;
   }
   if (!model_.surface.points.empty()) {
-    const AlignmentResult result = Align(pyramid, model_, subject_from_camera_, center_,
-                                         settings_.alignment, settings_.threads);
+    const AlignmentResult result =
+        Align(pyramid, model_, subject_from_camera_, center_, settings_.alignment, *team_);
     fused.matched_share = result.matched_share;
     fused.rms_m = result.rms_m;
     fused.condition = result.condition;
@@ -116,9 +117,9 @@ FusedFrame ScanFusion::FuseFrame(const DepthImage& depth) {
     subject_from_camera_ = result.subject_from_camera;
     fused.subject_from_camera = subject_from_camera_;
   }
-  volume_.Integrate(depth, pyramid.front(), camera_, subject_from_camera_, settings_.threads);
+  volume_.Integrate(depth, pyramid.front(), camera_, subject_from_camera_, *team_);
   lap(ScanStep::kIntegrate);
-  model_ = {volume_.Raycast(camera_, subject_from_camera_, settings_.threads), camera_,
+  model_ = {volume_.Raycast(camera_, subject_from_camera_, *team_), camera_,
             Inverse(subject_from_camera_)};
   lap(ScanStep::kRaycast);
   return fused;

@@ -9,9 +9,11 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "core/worker_team.h"
 #include "learning/scan/alignment.h"
 #include "learning/scan/scan_surface.h"
 #include "learning/scan/tsdf_volume.h"
@@ -55,6 +57,7 @@ class ScanFusion {
   Vector3d center_;
   TsdfVolume volume_;
   Rigidd subject_from_camera_;
+  std::unique_ptr<WorkerTeam> team_;
   ModelView model_;  // empty before the first frame
 };
 

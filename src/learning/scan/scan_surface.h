@@ -12,7 +12,7 @@ namespace vitruvia {
 // A connected piece of the surface.
 struct SurfaceComponent {
   double area_m2 = 0.0;
-  Vector3f low, high;  // its bounding box
+  Eigen::AlignedBox3f box;
   int triangles = 0;
   bool kept = false;
 };

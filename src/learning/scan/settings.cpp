@@ -15,22 +15,22 @@ constexpr std::size_t kMaxLevels = 5;
 
 void VolumeSettings::Describe(Fields& f) {
   f.Number("voxel_m", voxel_m,
-           {.meaning = "distance between the volume's samples",
+           {.meaning = "edge length of a voxel",
             .unit = "m",
             .min = 0.001,
             .max = 0.1,
             .origin = Origin::kGuessed,
             .source = "half a pixel of 320 columns at 2 m"});
   f.Number("truncation_m", truncation_m,
-           {.meaning = "distances are known up to this far from the surface; the body's thinnest "
-                       "parts should be thicker, the depth noise smaller",
+           {.meaning = "truncation: distances are kept up to this far from the surface; choose it "
+                       "larger than the depth noise and smaller than the body's thinnest parts",
             .unit = "m",
             .min = 0.002,
             .max = 0.5,
             .origin = Origin::kGuessed,
             .source = "four voxels"});
   f.Number("max_weight", max_weight,
-           {.meaning = "a voxel's weight grows no further: old frames fade out then",
+           {.meaning = "upper bound of a voxel's weight; beyond it, new frames replace old ones",
             .min = 1.0,
             .max = 1e6,
             .origin = Origin::kGuessed,
@@ -56,13 +56,14 @@ void VolumeSettings::Describe(Fields& f) {
             .max = 1.0,
             .origin = Origin::kGuessed,
             .source = "78°: depth there says little"});
-  f.Number("depth_jump_m", depth_jump_m,
-           {.meaning = "neighbouring pixels that differ by more are not the same surface",
-            .unit = "m",
-            .min = 0.001,
-            .max = 1.0,
-            .origin = Origin::kGuessed,
-            .source = "a pixel of 320 columns at 2 m, seen at 80°"});
+  f.Number(
+      "depth_jump_m", depth_jump_m,
+      {.meaning = "neighbouring pixels whose depths differ by more belong to different surfaces",
+       .unit = "m",
+       .min = 0.001,
+       .max = 1.0,
+       .origin = Origin::kGuessed,
+       .source = "a pixel of 320 columns at 2 m, seen at 80°"});
 }
 
 std::string VolumeSettings::Problem() const {
@@ -91,7 +92,7 @@ void SmoothingSettings::Describe(Fields& f) {
        .origin = Origin::kGuessed,
        .source = "KF, eq. 2 gives none"});
   f.Number("sigma_m", sigma_m,
-           {.meaning = "reach of the filter in depth",
+           {.meaning = "standard deviation of the bilateral filter in depth",
             .unit = "m",
             .min = 0.0001,
             .max = 1.0,
@@ -100,35 +101,38 @@ void SmoothingSettings::Describe(Fields& f) {
 }
 
 void AlignmentSettings::Describe(Fields& f) {
-  f.Integers("iterations", iterations,
-             {.meaning = "at most so many at each level of the pyramid, finest first",
-              .min = 0,
-              .max = 100,
-              .origin = Origin::kTuned,
-              .source = "KF, sec. 3.5 has 10, 5, 4; the finest level stops earlier here"});
+  f.Integers(
+      "iterations", iterations,
+      {.meaning = "maximum number of ICP iterations at each level of the pyramid, finest first",
+       .min = 0,
+       .max = 100,
+       .origin = Origin::kTuned,
+       .source = "KF, sec. 3.5 has 10, 5, 4; the finest level stops earlier here"});
   f.Number("max_distance_m", max_distance_m,
-           {.meaning = "points that are farther apart are no match",
+           {.meaning = "maximum distance between matched points",
             .unit = "m",
             .min = 0.001,
             .max = 1.0,
             .origin = Origin::kGuessed,
             .source = "KF gives none; a fast camera moves 0.03 m a frame"});
   f.Number("max_angle_deg", max_angle_deg,
-           {.meaning = "points whose normals differ by more are no match",
+           {.meaning = "maximum angle between the normals of matched points",
             .unit = "deg",
             .min = 1.0,
             .max = 90.0,
             .origin = Origin::kGuessed,
             .source = "KF gives none"});
   f.Number("stop_rotation_deg", stop_rotation_deg,
-           {.meaning = "a level ends when a step turns and moves the camera by less",
+           {.meaning = "a pyramid level ends when a step turns the camera by less than this and "
+                       "moves it by less than stop_translation_m",
             .unit = "deg",
             .min = 0.0,
             .max = 1.0,
             .origin = Origin::kGuessed,
             .source = "a hundredth of what a pixel resolves"});
   f.Number("stop_translation_m", stop_translation_m,
-           {.meaning = "a level ends when a step turns and moves the camera by less",
+           {.meaning = "a pyramid level ends when a step moves the camera by less than this and "
+                       "turns it by less than stop_rotation_deg",
             .unit = "m",
             .min = 0.0,
             .max = 0.01,
@@ -147,14 +151,16 @@ std::string AlignmentSettings::Problem() const {
 }
 
 void LossSettings::Describe(Fields& f) {
-  f.Number("min_matched_share", min_matched_share,
-           {.meaning = "the camera is lost when less of a frame's points match the model",
-            .min = 0.0,
-            .max = 1.0,
-            .origin = Origin::kGuessed,
-            .source = "a good frame matches 0.8 and more"});
+  f.Number(
+      "min_matched_share", min_matched_share,
+      {.meaning = "the camera is lost when a smaller share of a frame's points matches the model",
+       .min = 0.0,
+       .max = 1.0,
+       .origin = Origin::kGuessed,
+       .source = "a good frame matches 0.8 and more"});
   f.Number("max_rms_m", max_rms_m,
-           {.meaning = "the camera is lost when the matched points lie farther from the model",
+           {.meaning =
+                "the camera is lost when the RMS distance of matched points to the model is larger",
             .unit = "m",
             .min = 0.0001,
             .max = 1.0,
@@ -169,7 +175,8 @@ void LossSettings::Describe(Fields& f) {
             .source = "a view of a whole body has about 100"});
   f.Number(
       "max_step_m", max_step_m,
-      {.meaning = "the camera is lost when it seems to have moved farther in the time of a frame",
+      {.meaning =
+           "the camera is lost when it seems to have moved farther than this between two frames",
        .unit = "m",
        .min = 0.001,
        .max = 10.0,
@@ -177,7 +184,8 @@ void LossSettings::Describe(Fields& f) {
        .source = "3 m/s at 30 frames/s"});
   f.Number(
       "max_step_deg", max_step_deg,
-      {.meaning = "the camera is lost when it seems to have turned farther in the time of a frame",
+      {.meaning =
+           "the camera is lost when it seems to have turned farther than this between two frames",
        .unit = "deg",
        .min = 0.1,
        .max = 180.0,
@@ -205,18 +213,18 @@ void SurfaceSettings::Describe(Fields& f) {
 
 void ScanFusionSettings::Describe(Fields& f) {
   f.Section("volume", volume, {.meaning = "the volume of signed distances"});
-  f.Section("smoothing", smoothing, {.meaning = "of depth before alignment"});
-  f.Section("alignment", alignment, {.meaning = "of a frame with the model"});
+  f.Section("smoothing", smoothing, {.meaning = "bilateral filter of the depth before alignment"});
+  f.Section("alignment", alignment, {.meaning = "alignment of each frame with the model by ICP"});
   f.Section("loss", loss, {.meaning = "when the camera counts as lost"});
-  f.Section("surface", surface, {.meaning = "how the surface is taken out and cleaned"});
+  f.Section("surface", surface, {.meaning = "how the surface is extracted and cleaned"});
   f.Integer("stride", stride,
-            {.meaning = "every so many frames one is used; the others are skipped",
+            {.meaning = "use every n-th frame and skip the others",
              .min = 1,
              .max = 1000,
              .origin = Origin::kPaper,
              .source = "KF uses every frame"});
   f.Integer("threads", threads,
-            {.meaning = "threads to work on; the result is the same for any number",
+            {.meaning = "number of threads; the result does not depend on it",
              .min = 1,
              .max = 64,
              .origin = Origin::kGuessed,

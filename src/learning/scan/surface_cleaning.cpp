@@ -2,31 +2,12 @@
 #include <map>
 #include <numeric>
 
+#include "core/disjoint_sets.h"
 #include "core/error.h"
 #include "learning/scan/scan_surface.h"
 
 namespace vitruvia {
 namespace {
-
-// Disjoint sets of vertices; a set is named after its lowest one.
-class VertexSets {
- public:
-  explicit VertexSets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  std::int32_t Find(std::int32_t v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  void Join(std::int32_t a, std::int32_t b) {
-    a = Find(a);
-    b = Find(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::int32_t> parent_;
-};
 
 double TriangleArea(const TriangleMesh& mesh, const Triangle& t) {
   const Vector3d a = mesh.vertices[t[0]].cast<double>();
@@ -37,7 +18,7 @@ double TriangleArea(const TriangleMesh& mesh, const Triangle& t) {
 
 // Each short edge becomes a point, the lower of its two vertices.
 void ContractShortEdges(TriangleMesh& mesh, double short_edge_m) {
-  VertexSets sets(mesh.vertices.size());
+  DisjointSets sets(mesh.vertices.size());
   for (const Triangle& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int32_t a = t[k], b = t[(k + 1) % 3];
@@ -55,7 +36,7 @@ void ContractShortEdges(TriangleMesh& mesh, double short_edge_m) {
 
 // The components, largest first, and for each triangle its component.
 std::vector<SurfaceComponent> FindComponents(const TriangleMesh& mesh, std::vector<int>& owner) {
-  VertexSets sets(mesh.vertices.size());
+  DisjointSets sets(mesh.vertices.size());
   for (const Triangle& t : mesh.triangles) {
     sets.Join(t[0], t[1]);
     sets.Join(t[1], t[2]);
@@ -66,14 +47,11 @@ std::vector<SurfaceComponent> FindComponents(const TriangleMesh& mesh, std::vect
   for (const Triangle& t : mesh.triangles) {
     const auto [entry, is_new] =
         number_of.try_emplace(sets.Find(t[0]), static_cast<int>(found.size()));
-    if (is_new) found.push_back({.low = mesh.vertices[t[0]], .high = mesh.vertices[t[0]]});
+    if (is_new) found.emplace_back();
     SurfaceComponent& component = found[static_cast<std::size_t>(entry->second)];
     component.area_m2 += TriangleArea(mesh, t);
     ++component.triangles;
-    for (const std::int32_t v : t) {
-      component.low = component.low.cwiseMin(mesh.vertices[v]);
-      component.high = component.high.cwiseMax(mesh.vertices[v]);
-    }
+    for (const std::int32_t v : t) component.box.extend(mesh.vertices[v]);
     owner.push_back(entry->second);
   }
   std::vector<int> order(found.size()), rank(found.size());

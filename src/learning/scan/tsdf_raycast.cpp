@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/parallel.h"
 #include "learning/scan/tsdf_volume.h"
 
 namespace vitruvia {
@@ -150,14 +149,14 @@ Vector3f TsdfVolume::Gradient(const Vector3f& position) const {
 }
 
 PointMap TsdfVolume::Raycast(const PinholeCamera& camera, const Rigidd& subject_from_camera,
-                             int threads) const {
+                             WorkerTeam& team) const {
   PointMap map{Image<Vector3f>(camera.width, camera.height, Vector3f::Zero()),
                Image<Vector3f>(camera.width, camera.height, Vector3f::Zero())};
   const std::vector<Range> ranges = DepthRanges(camera, Inverse(subject_from_camera));
   const int columns = (camera.width + kTile - 1) / kTile;
   const Rigidf transform = subject_from_camera.Cast<float>();
   const Vector3f origin = ToLattice(transform.translation);
-  ParallelFor(camera.height, threads, [&](int begin, int end) {
+  team.For(camera.height, [&](int begin, int end) {
     for (int v = begin; v < end; ++v) {
       for (int u = 0; u < camera.width; ++u) {
         const Range& range = ranges[static_cast<std::size_t>(v / kTile) * columns + u / kTile];

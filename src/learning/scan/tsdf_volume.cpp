@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/parallel.h"
 
 namespace vitruvia {
 namespace {
@@ -265,10 +264,10 @@ void TsdfVolume::IntegrateBlock(int block, const View& view) {
 
 void TsdfVolume::Integrate(const DepthImage& depth, const PointMap& seen,
                            const PinholeCamera& camera, const Rigidd& subject_from_camera,
-                           int threads) {
+                           WorkerTeam& team) {
   MakeRoom(seen, subject_from_camera);
   const View view(depth, seen, camera, subject_from_camera, settings_);
-  ParallelFor(block_count(), threads, [&](int begin, int end) {
+  team.For(block_count(), [&](int begin, int end) {
     for (int block = begin; block < end; ++block) IntegrateBlock(block, view);
   });
 }

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/worker_team.h"
 #include "geometry/camera.h"
 #include "learning/scan/point_map.h"
 #include "learning/scan/settings.h"
@@ -29,12 +30,12 @@ class TsdfVolume {
   // Averages a frame in. `seen` are the frame's points (camera frame) and normals; pixels without a
   // normal are left out. RunError if the surface seen so far needs more blocks than a body can.
   void Integrate(const DepthImage& depth, const PointMap& seen, const PinholeCamera& camera,
-                 const Rigidd& subject_from_camera, int threads);
+                 const Rigidd& subject_from_camera, WorkerTeam& team);
 
   // The surface as a camera sees it: points and normals in the subject frame. Pixels whose ray
   // leaves the observed space, or meets the surface from behind, have none.
   PointMap Raycast(const PinholeCamera& camera, const Rigidd& subject_from_camera,
-                   int threads) const;
+                   WorkerTeam& team) const;
 
   // Averaged distance in metres (within ± truncation) and weight at a lattice point; weight 0 where
   // nothing was observed.

@@ -20,30 +20,11 @@ struct Pair {
   Vector3f target, n;
 };
 
-struct Extent {
-  Vector3f low, high;
-};
-Extent ExtentOf(const std::vector<Vector3f>& points) {
-  Extent extent{points.front(), points.front()};
-  for (const Vector3f& p : points) {
-    extent.low = extent.low.cwiseMin(p);
-    extent.high = extent.high.cwiseMax(p);
-  }
-  return extent;
-}
-
-std::vector<Vector3f> EveryNth(const std::vector<Vector3f>& all, std::size_t step) {
-  std::vector<Vector3f> some;
-  for (std::size_t i = 0; i < all.size(); i += step) some.push_back(all[i]);
-  return some;
-}
-
 void CheckScan(const ScannedSurface& scan, const BodyAttributes& attributes) {
   Require(scan.points.size() == scan.normals.size(), "FitIntrinsicShape: {} points, {} normals",
           scan.points.size(), scan.normals.size());
   if (scan.points.empty()) throw DataError("intrinsic shape: the scan is empty: there is no body");
-  const Extent extent = ExtentOf(scan.points);
-  const double height_m = extent.high.y() - extent.low.y();
+  const double height_m = BoundingBox(scan.points).sizes().y();
   if (std::abs(height_m - attributes.height_m) > kMostHeightMismatch_m) {
     throw DataError(fmt::format(
         "intrinsic shape: the scan is {:.2f} m high, the person {:.2f} m; expected them to differ "
@@ -63,8 +44,7 @@ class Fit {
         posed_(tracking, settings.components),
         tracking_(tracking),
         scan_(scan),
-        queries_(EveryNth(scan.points, Stride())),
-        query_normals_(EveryNth(scan.normals, Stride())) {
+        queries_(EvenlyChosen(scan, settings.scan_points)) {
     scan_tree_.Build(scan.points);
     parameters_ = posed_.Start();
     if (Holds()) {
@@ -93,10 +73,6 @@ class Fit {
 
  private:
   bool Holds() const { return settings_.attributes == AttributeUse::kHeld; }
-  std::size_t Stride() const {
-    const auto wanted = static_cast<std::size_t>(settings_.scan_points);
-    return std::max<std::size_t>(1, scan_.points.size() / wanted);
-  }
 
   void CheckAttributes(const ShapeSpace& space) const {
     const double deviation = subspace_.Deviation(attributes_);
@@ -112,9 +88,10 @@ class Fit {
   // Head to head, and the middle of the body over the middle of the scan: soles may be missing.
   void PlaceOnScan() {
     posed_.Set(parameters_);
-    const Extent body = ExtentOf(posed_.vertices()), scan = ExtentOf(scan_.points);
-    Vector3f shift = 0.5f * (scan.low + scan.high - body.low - body.high);
-    shift.y() = scan.high.y() - body.high.y();
+    const Eigen::AlignedBox3f body = BoundingBox(posed_.vertices());
+    const Eigen::AlignedBox3f scan = BoundingBox(scan_.points);
+    Vector3f shift = scan.center() - body.center();
+    shift.y() = scan.max().y() - body.max().y();
     parameters_.pelvis_position += shift.cast<double>();
   }
 
@@ -146,12 +123,12 @@ class Fit {
     }
     body_pairs_ = pairs_.size();
     body_tree_.Build(vertices);
-    body_tree_.FindNearest(queries_, cutoff, neighbors_);
-    for (std::size_t q = 0; q < queries_.size(); ++q) {
+    body_tree_.FindNearest(queries_.points, cutoff, neighbors_);
+    for (std::size_t q = 0; q < queries_.points.size(); ++q) {
       if (neighbors_[q].index < 0) continue;
       const auto v = static_cast<std::size_t>(neighbors_[q].index);
-      if (query_normals_[q].dot(normals_[v]) < least_cosine) continue;
-      pairs_.push_back({neighbors_[q].index, queries_[q], normals_[v]});
+      if (queries_.normals[q].dot(normals_[v]) < least_cosine) continue;
+      pairs_.push_back({neighbors_[q].index, queries_.points[q], normals_[v]});
     }
   }
 
@@ -204,10 +181,11 @@ class Fit {
     hessian.topLeftCorner(free, free).diagonal().array() += 1.0;
     gradient.head(free) += moves_.transpose() * (parameters_.theta - center_);
     const double slack = 1.0 / std::pow(settings_.pose_slack_deg * kRadiansPerDegree, 2);
+    const std::array<Vector3d, kBoneCount> bends = PosedShape::BendGradients(parameters_);
     for (int b = 1; b < kBoneCount; ++b) {
       const int at = free + posed_.rotation_index(b) - components;
       hessian.block<3, 3>(at, at).diagonal().array() += slack;
-      gradient.segment<3>(at) += slack * LogSo3<double>(parameters_.local_rotations[b]);
+      gradient.segment<3>(at) += slack * bends[b];
     }
     const Eigen::VectorXd step = reduction * hessian.ldlt().solve(-gradient);
     parameters_ = posed_.Stepped(parameters_, step);
@@ -265,7 +243,7 @@ class Fit {
   PosedShape posed_;
   const ShapeSpace& tracking_;
   const ScannedSurface& scan_;
-  std::vector<Vector3f> queries_, query_normals_;
+  ScannedSurface queries_;  // points that look for the body
   KdTree scan_tree_, body_tree_;
   PosedShape::Parameters parameters_;
   Eigen::MatrixXd moves_;   // K × F: the directions in which θ may move
@@ -295,31 +273,33 @@ void IntrinsicShapeSettings::Describe(Fields& f) {
             .origin = Origin::kPaper,
             .source = "paper A, eq. 6"});
   f.Number("length_unit_m", length_unit_m,
-           {.meaning = "unit of the distances in E_diff",
+           {.meaning = "length that counts as 1 in the distance between body and scan (E_diff)",
             .unit = "m",
             .min = 1e-4,
             .max = 10.0,
             .origin = Origin::kGuessed,
             .source = "the paper gives no unit; the tracker's"});
-  f.Integer("max_iterations", max_iterations,
-            {.meaning = "Gauss–Newton steps; the cutoff shrinks over the first half",
-             .min = 1,
-             .max = 1000,
-             .origin = Origin::kGuessed});
+  f.Integer(
+      "max_iterations", max_iterations,
+      {.meaning = "maximum number of Gauss–Newton steps; the cutoff shrinks during the first half",
+       .min = 1,
+       .max = 1000,
+       .origin = Origin::kGuessed});
   f.Number("first_cutoff_m", first_cutoff_m,
-           {.meaning = "farthest pair of the first step",
+           {.meaning = "maximum distance between the points of a pair in the first step",
             .unit = "m",
             .min = 0.001,
             .max = 1.0,
             .origin = Origin::kGuessed});
-  f.Number("last_cutoff_m", last_cutoff_m,
-           {.meaning = "farthest pair from half-way on",
-            .unit = "m",
-            .min = 0.001,
-            .max = 1.0,
-            .origin = Origin::kGuessed});
+  f.Number(
+      "last_cutoff_m", last_cutoff_m,
+      {.meaning = "maximum distance between the points of a pair in the second half of the steps",
+       .unit = "m",
+       .min = 0.001,
+       .max = 1.0,
+       .origin = Origin::kGuessed});
   f.Number("normal_angle_deg", normal_angle_deg,
-           {.meaning = "greatest angle between the normals of a pair",
+           {.meaning = "maximum angle between the normals of a pair",
             .unit = "deg",
             .min = 1.0,
             .max = 90.0,
@@ -337,13 +317,13 @@ void IntrinsicShapeSettings::Describe(Fields& f) {
             .max = 90.0,
             .origin = Origin::kGuessed});
   f.Number("stop_m", stop_m,
-           {.meaning = "mean movement of the surface in a step at which the fit ends",
+           {.meaning = "the fit ends when a step moves the surface by less than this on average",
             .unit = "m",
             .min = 0.0,
             .max = 0.1,
             .origin = Origin::kGuessed});
   f.Integer("scan_points", scan_points,
-            {.meaning = "points of the scan, evenly chosen, that look for the body",
+            {.meaning = "number of scan points, evenly spaced, that are paired with the body",
              .min = 100,
              .max = 1000000,
              .origin = Origin::kGuessed});
@@ -352,14 +332,16 @@ void IntrinsicShapeSettings::Describe(Fields& f) {
             .min = 0.0,
             .max = 1.0,
             .origin = Origin::kGuessed});
-  f.Number("most_unusual", most_unusual,
-           {.meaning = "standard deviations that attributes may be from the database's mean",
-            .min = 0.0,
-            .max = 100.0,
-            .origin = Origin::kGuessed});
+  f.Number(
+      "most_unusual", most_unusual,
+      {.meaning =
+           "maximum distance of the attributes from the database's mean, in standard deviations",
+       .min = 0.0,
+       .max = 100.0,
+       .origin = Origin::kGuessed});
   f.Choice("attributes", attributes,
            {{"held", AttributeUse::kHeld}, {"ignored", AttributeUse::kIgnored}},
-           {.meaning = "whether height, weight and sex are held at what is known of the person",
+           {.meaning = "whether height, weight and sex are held at the person's known values",
             .origin = Origin::kPaper,
             .source = "paper A, eq. 6"});
 }
@@ -375,6 +357,18 @@ ScannedSurface SurfaceOf(const TriangleMesh& scan) {
   surface.points = scan.vertices;
   ComputeVertexNormals(scan.vertices, scan.triangles, surface.normals);
   return surface;
+}
+
+ScannedSurface EvenlyChosen(const ScannedSurface& scan, int count) {
+  const auto wanted = static_cast<std::size_t>(count);
+  const std::size_t all = scan.points.size();
+  if (all <= wanted) return scan;
+  ScannedSurface chosen;
+  for (std::size_t i = 0; i < wanted; ++i) {
+    chosen.points.push_back(scan.points[i * all / wanted]);
+    chosen.normals.push_back(scan.normals[i * all / wanted]);
+  }
+  return chosen;
 }
 
 IntrinsicShape FitIntrinsicShape(const ShapeSpace& space, const ShapeSpace& tracking,

@@ -48,6 +48,9 @@ struct ScannedSurface {
 };
 ScannedSurface SurfaceOf(const TriangleMesh& scan);
 
+// `count` points of the scan, evenly spaced by index; all of them if it has no more.
+ScannedSurface EvenlyChosen(const ScannedSurface& scan, int count);
+
 struct IntrinsicShape {
   Eigen::VectorXd theta;
   PosedShape::Parameters pose;    // scan frame

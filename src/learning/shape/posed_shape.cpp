@@ -4,6 +4,24 @@
 
 namespace vitruvia {
 
+namespace {
+
+// scan_from_parent of each bone; the identity for the pelvis.
+std::array<Matrix3<double>, kBoneCount> ParentRotations(const PosedShape::Parameters& parameters) {
+  std::array<Matrix3<double>, kBoneCount> above;
+  for (int b = 0; b < kBoneCount; ++b) {
+    const int parent = Bones()[b].parent;
+    if (parent < 0) {
+      above[b].setIdentity();
+    } else {
+      above[b] = above[parent] * parameters.local_rotations[parent];
+    }
+  }
+  return above;
+}
+
+}  // namespace
+
 PosedShape::PosedShape(const ShapeSpace& space, int components)
     : space_(space), components_(components) {
   Require(components >= 1 && components <= space.components(),
@@ -24,18 +42,22 @@ PosedShape::Parameters PosedShape::Stepped(const Parameters& parameters,
   Parameters stepped = parameters;
   stepped.theta += step.head(components_);
   stepped.pelvis_position += step.segment<3>(components_);
-  // A rotation of the scan frame, seen from the bone's parent.
-  std::array<Matrix3<double>, kBoneCount> global;
+  const std::array<Matrix3<double>, kBoneCount> above = ParentRotations(parameters);
   for (int b = 0; b < kBoneCount; ++b) {
-    const int parent = Bones()[b].parent;
     const Matrix3<double> turn = ExpSo3<double>(step.segment<3>(rotation_index(b)));
-    const Matrix3<double> scan_from_parent =
-        parent < 0 ? Matrix3<double>::Identity() : global[parent];
-    global[b] = scan_from_parent * parameters.local_rotations[b];
     stepped.local_rotations[b] =
-        scan_from_parent.transpose() * turn * scan_from_parent * parameters.local_rotations[b];
+        above[b].transpose() * turn * above[b] * parameters.local_rotations[b];
   }
   return stepped;
+}
+
+std::array<Vector3d, kBoneCount> PosedShape::BendGradients(const Parameters& parameters) {
+  const std::array<Matrix3<double>, kBoneCount> above = ParentRotations(parameters);
+  std::array<Vector3d, kBoneCount> gradients;
+  for (int b = 0; b < kBoneCount; ++b) {
+    gradients[b] = above[b] * LogSo3<double>(parameters.local_rotations[b]);
+  }
+  return gradients;
 }
 
 void PosedShape::Set(const Parameters& parameters) {

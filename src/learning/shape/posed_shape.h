@@ -33,6 +33,11 @@ class PosedShape {
   void Set(const Parameters& parameters);
   const std::vector<Vector3f>& vertices() const { return vertices_; }  // scan frame
 
+  // For each bone, the gradient of ½ |Log(R_local)|² with respect to the rotation vector of a step:
+  // P Log(R_local), P the rotation scan_from_parent, because a step's vector is in the scan frame
+  // and Log(R_local) in the parent's.
+  static std::array<Vector3d, kBoneCount> BendGradients(const Parameters& parameters);
+
   // d(n · x_i)/d(parameters) at the parameters last set: parameter_count() floats.
   void Row(std::size_t vertex, const Vector3f& n, float* row) const;
 

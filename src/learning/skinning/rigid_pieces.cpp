@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "core/error.h"
-#include "core/parallel.h"
-#include "math/rigid.h"
+#include "core/worker_team.h"
+#include "math/rigid_fit.h"
 
 namespace vitruvia::skinning {
 namespace {
@@ -19,7 +19,7 @@ class PieceFinder {
  public:
   PieceFinder(const Examples& examples, int threads)
       : examples_(examples),
-        threads_(threads),
+        team_(threads),
         labels_(examples.rest.size(), 0),
         errors_(examples.rest.size(), 0.0f) {
     AddPiece();
@@ -60,7 +60,7 @@ class PieceFinder {
     for (std::size_t v = 0; v < labels_.size(); ++v) {
       members[labels_[v]].push_back(static_cast<int>(v));
     }
-    ParallelFor(static_cast<int>(examples_.poses.size()), threads_, [&](int begin, int end) {
+    team_.For(static_cast<int>(examples_.poses.size()), [&](int begin, int end) {
       for (int pose = begin; pose < end; ++pose) {
         for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
           if (members[piece].size() >= 3) pieces_[piece][pose] = Fitted(members[piece], pose);
@@ -71,20 +71,11 @@ class PieceFinder {
 
   Rigidf Fitted(const std::vector<int>& members, int pose) const {
     const std::vector<Vector3f>& posed = examples_.poses[pose];
-    Vector3d rest_centre = Vector3d::Zero(), posed_centre = Vector3d::Zero();
-    for (const int v : members) {
-      rest_centre += examples_.rest[v].cast<double>();
-      posed_centre += posed[v].cast<double>();
-    }
-    rest_centre /= static_cast<double>(members.size());
-    posed_centre /= static_cast<double>(members.size());
-    Matrix3<double> covariance = Matrix3<double>::Zero();
-    for (const int v : members) {
-      covariance += (posed[v].cast<double>() - posed_centre) *
-                    (examples_.rest[v].cast<double>() - rest_centre).transpose();
-    }
-    const Matrix3<double> rotation = NearestRotation<double>(covariance);
-    return Rigidd{rotation, posed_centre - rotation * rest_centre}.Cast<float>();
+    const auto pair_at = [&](std::size_t i) {
+      const int v = members[i];
+      return PointPair{examples_.rest[v].cast<double>(), posed[v].cast<double>()};
+    };
+    return FitRigid(members.size(), pair_at).Cast<float>();
   }
 
   float Error(int vertex, const Motion& motion) const {
@@ -99,7 +90,7 @@ class PieceFinder {
   // True if a vertex changed sides.
   bool Reassign() {
     const Labels before = labels_;
-    ParallelFor(static_cast<int>(labels_.size()), threads_, [&](int begin, int end) {
+    team_.For(static_cast<int>(labels_.size()), [&](int begin, int end) {
       for (int v = begin; v < end; ++v) {
         errors_[v] = std::numeric_limits<float>::infinity();
         for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
@@ -147,7 +138,7 @@ class PieceFinder {
   }
 
   const Examples& examples_;
-  int threads_;
+  WorkerTeam team_;
   Labels labels_;
   std::vector<float> errors_;  // of each vertex under its piece's motion, summed over poses
   std::vector<Motion> pieces_;

@@ -6,25 +6,25 @@ namespace vitruvia::skinning {
 
 void Settings::Describe(Fields& f) {
   f.Integer("alternations", alternations,
-            {.meaning = "at most so many rounds of weights, then transforms",
+            {.meaning = "maximum number of alternations between weights and transforms",
              .min = 0,
              .max = 10000,
              .origin = Origin::kPaper,
              .source = "paper A, sec. 4: 20"});
   f.Integer("influences", influences,
-            {.meaning = "most bones that move one vertex",
+            {.meaning = "maximum number of bones that move one vertex",
              .min = 1,
              .max = kMaxInfluences,
              .origin = Origin::kPaper,
              .source = "paper A, eq. 2: |N| = 4"});
   f.Integer("neighbours", neighbours,
-            {.meaning = "most neighbours of a bone",
+            {.meaning = "maximum number of neighbours of a bone",
              .min = 1,
              .max = kMaxCandidates,
              .origin = Origin::kTuned,
              .source = "paper A, sec. 4: 3; a chest has 4: abdomen, neck and two arms"});
   f.Integer("neighbour_steps", neighbour_steps,
-            {.meaning = "a vertex may follow bones so many neighbours away from its label's",
+            {.meaning = "how many bones away from its own bone a vertex may be influenced",
              .min = 0,
              .max = 16,
              .origin = Origin::kTuned,
@@ -37,7 +37,7 @@ void Settings::Describe(Fields& f) {
        .origin = Origin::kPaper,
        .source = "paper A, sec. 4"});
   f.Integer("transform_steps", transform_steps,
-            {.meaning = "linearised solves, or rounds over all bones, in an alternation",
+            {.meaning = "linearised solves, or rounds over all bones, per alternation",
              .min = 1,
              .max = 100,
              .origin = Origin::kTuned,
@@ -50,12 +50,12 @@ void Settings::Describe(Fields& f) {
              .origin = Origin::kTuned,
              .source = "the papers: 0"});
   f.Number("least_gain", least_gain,
-           {.meaning = "the end is reached when an alternation lowers the RMSE by a smaller share",
+           {.meaning = "the fit ends when an alternation lowers the RMSE by less than this share",
             .min = 0,
             .max = 1,
             .origin = Origin::kTuned});
   f.Integer("threads", threads,
-            {.meaning = "threads; the result does not depend on their number",
+            {.meaning = "number of threads; the result does not depend on it",
              .min = 1,
              .max = 64,
              .origin = Origin::kInput});

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 
+#include "core/disjoint_sets.h"
 #include "methods/dynamic/surface.h"
 
 namespace vitruvia::dynamic {
@@ -39,18 +39,11 @@ std::vector<std::pair<int, int>> Rims(const std::vector<Triangle>& triangles) {
 
 // Which vertices hang together along the rims: the lowest of each rim, per vertex.
 std::vector<int> RimOf(const std::vector<std::pair<int, int>>& rims, std::size_t vertex_count) {
-  std::vector<int> root(vertex_count);
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](int v) {
-    while (root[v] != v) v = root[v] = root[root[v]];
-    return v;
-  };
-  for (const auto& [from, to] : rims) {
-    const int a = find(from), b = find(to);
-    root[std::max(a, b)] = std::min(a, b);
-  }
-  for (std::size_t v = 0; v < vertex_count; ++v) root[v] = find(static_cast<int>(v));
-  return root;
+  DisjointSets sets(vertex_count);
+  for (const auto& [from, to] : rims) sets.Join(from, to);
+  std::vector<int> rim_of(vertex_count);
+  for (std::size_t v = 0; v < vertex_count; ++v) rim_of[v] = sets.Find(static_cast<int>(v));
+  return rim_of;
 }
 
 void CloseHoles(TrackedMesh& mesh) {

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include <Eigen/SVD>
-
 #include "math/angles.h"
+#include "math/rigid_fit.h"
 #include "search/kd_tree.h"
 #include "tracking/visibility.h"
 
@@ -24,20 +23,10 @@ Vector3d Mean(const std::vector<Vector3f>& points) {
   return sum / static_cast<double>(points.size());
 }
 
-// The rigid motion that carries rest onto observed with least squares (Kabsch 1976).
 Rigidd RigidFit(const std::vector<Match>& matches) {
-  Vector3d rest_mean = Vector3d::Zero(), observed_mean = Vector3d::Zero();
-  for (const Match& m : matches) {
-    rest_mean += m.rest;
-    observed_mean += m.observed;
-  }
-  rest_mean /= static_cast<double>(matches.size());
-  observed_mean /= static_cast<double>(matches.size());
-  Matrix3<double> covariance = Matrix3<double>::Zero();
-  for (const Match& m : matches)
-    covariance += (m.observed - observed_mean) * (m.rest - rest_mean).transpose();
-  const Matrix3<double> rotation = NearestRotation(covariance);
-  return {rotation, observed_mean - rotation * rest_mean};
+  return FitRigid(matches.size(), [&](std::size_t i) {
+    return PointPair{matches[i].rest, matches[i].observed};
+  });
 }
 
 std::vector<Vector3f> Transformed(const std::vector<Vector3f>& points, const Rigidf& b_from_a) {

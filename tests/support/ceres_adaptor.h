@@ -16,7 +16,7 @@ struct CeresResult {
 };
 
 // Minimises ‖residuals(x)‖² from x with Levenberg–Marquardt, numeric (Ridders) derivatives and
-// tight tolerances. Slow and sure: for tests and studies, not for frames.
+// tight tolerances. Slow, but independent of our own solvers.
 CeresResult MinimizeWithCeres(
     const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& residuals,
     const Eigen::VectorXd& x);

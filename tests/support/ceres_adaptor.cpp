@@ -1,4 +1,4 @@
-#include "solver/ceres_adaptor.h"
+#include "support/ceres_adaptor.h"
 
 #include <ceres/ceres.h>
 

@@ -1,0 +1,44 @@
+// Points sorted by the pixel that they fall on, to look for neighbours among those near in the
+// image.
+#pragma once
+
+#include <vector>
+
+#include "geometry/camera.h"
+#include "search/kd_tree.h"
+
+namespace vitruvia {
+
+class PixelGrid {
+ public:
+  explicit PixelGrid(const PinholeCamera& camera);
+
+  // Points (camera frame, metres) out of view are nobody's neighbours.
+  void Build(const std::vector<Vector3f>& points);
+
+  // The nearest point to each query (camera frame) within max_distance_m, among those
+  // in the square cells of kCellPx pixels that lie within window_px columns and rows of the query's
+  // own cell, or within max_distance_m if that is fewer; of equally near ones the first. No
+  // neighbour for a query out of view.
+  void FindNearest(const std::vector<Vector3f>& queries, float max_distance_m, int window_px,
+                   std::vector<KdTree::Neighbor>& neighbors) const;
+
+  static constexpr int kCellPx = 4;
+
+ private:
+  struct Entry {
+    Vector3f point;
+    std::int32_t index;
+  };
+
+  int CellOf(const Vector3f& point) const;
+  KdTree::Neighbor Nearest(const Vector3f& query, float max_distance_m, int window_px) const;
+
+  PinholeCamera camera_;
+  int columns_, rows_;
+  std::vector<int> first_;    // entry at which each cell begins
+  std::vector<int> cell_of_;  // of each point, -1: out of view
+  std::vector<Entry> sorted_;
+};
+
+}  // namespace vitruvia
