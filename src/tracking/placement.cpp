@@ -1,4 +1,4 @@
-#include "methods/realtime_scape/placement.h"
+#include "tracking/placement.h"
 
 #include <algorithm>
 #include <limits>
@@ -9,7 +9,7 @@
 #include "search/kd_tree.h"
 #include "tracking/visibility.h"
 
-namespace vitruvia::realtime_scape {
+namespace vitruvia {
 namespace {
 
 struct Match {
@@ -56,25 +56,54 @@ void KeepBest(double share, std::vector<Match>& matches) {
   matches.resize(keep);
 }
 
-Rigidd Misplaced(const Rigidd& camera_from_subject, const PlacementSettings& settings) {
-  const double angle = settings.wrong_by_deg * kRadiansPerDegree;
-  const Vector3d shift(settings.wrong_by_m[0], settings.wrong_by_m[1], settings.wrong_by_m[2]);
-  return Rigidd{Matrix3<double>::Identity(), shift} * camera_from_subject *
+Rigidd Displaced(const Rigidd& camera_from_subject, const PlacementSettings& settings) {
+  const double angle = settings.initial_rotation_deg * kRadiansPerDegree;
+  const auto& [x, y, z] = settings.initial_offset_m;
+  return Rigidd{Matrix3<double>::Identity(), {x, y, z}} * camera_from_subject *
          Rigidd{ExpSo3<double>({0.0, angle, 0.0}), Vector3d::Zero()};
+}
+
+// Facing the camera: the subject's up is the image's up, its front looks back along the view.
+Rigidd CentroidOnCentroid(const RestSurface& rest, const PointCloud& cloud) {
+  const Matrix3<double> rotation = Vector3d(1.0, -1.0, -1.0).asDiagonal();
+  return {rotation, Mean(cloud.points) - rotation * Mean(rest.vertices)};
 }
 
 }  // namespace
 
-Rigidd PlaceRestPose(const Model& model, const PointCloud& cloud, const PinholeCamera& camera,
-                     const FitSettings& fit, const PlacementSettings& settings,
-                     MeshRasterizer& rasterizer) {
-  // Facing the camera: the subject's up is the image's up, its front looks back along the view.
-  Rigidd camera_from_subject;
-  camera_from_subject.rotation = Vector3d(1.0, -1.0, -1.0).asDiagonal();
-  camera_from_subject.translation =
-      Mean(cloud.points) - camera_from_subject.rotation * Mean(model.rest_vertices);
+void PlacementSettings::Describe(Fields& f) {
+  f.Integer("iterations", iterations,
+            {.meaning = "number of rigid closest-point iterations that put the rest pose onto the "
+                        "first frame",
+             .min = 0,
+             .max = 1000,
+             .origin = Origin::kGuessed,
+             .source = "paper A: the subject starts in a predetermined T-pose"});
+  f.Number("trim", trim,
+           {.meaning = "share of the pairs, those with the largest distances, left out of each "
+                       "rigid fit of the first placement",
+            .min = 0,
+            .max = 0.9,
+            .origin = Origin::kGuessed,
+            .source = "the arms may hang a little from the T-pose"});
+  f.Numbers("initial_offset_m", initial_offset_m,
+            {.meaning = "translation in the camera frame that displaces the start of the first "
+                        "placement, to test its basin of convergence",
+             .unit = "m",
+             .min = -10,
+             .max = 10});
+  f.Number("initial_rotation_deg", initial_rotation_deg,
+           {.meaning = "rotation about the subject's vertical axis that displaces the start of the "
+                       "first placement, to test its basin of convergence",
+            .unit = "deg",
+            .min = -180,
+            .max = 180});
+}
 
-  camera_from_subject = Misplaced(camera_from_subject, settings);
+Rigidd PlaceRestPose(const RestSurface& rest, const PointCloud& cloud, const PinholeCamera& camera,
+                     double visible_within_m, const PlacementSettings& settings,
+                     MeshRasterizer& rasterizer) {
+  Rigidd camera_from_subject = Displaced(CentroidOnCentroid(rest, cloud), settings);
 
   KdTree tree;
   std::vector<int> visible;
@@ -82,9 +111,9 @@ Rigidd PlaceRestPose(const Model& model, const PointCloud& cloud, const PinholeC
   std::vector<Match> matches;
   for (int i = 0; i < settings.iterations; ++i) {
     const std::vector<Vector3f> posed =
-        Transformed(model.rest_vertices, camera_from_subject.Cast<float>());
-    FindVisibleVertices(posed, rasterizer.Render(posed, model.triangles), camera,
-                        static_cast<float>(fit.visible_within_m), visible);
+        Transformed(rest.vertices, camera_from_subject.Cast<float>());
+    FindVisibleVertices(posed, rasterizer.Render(posed, rest.triangles), camera,
+                        static_cast<float>(visible_within_m), visible);
     std::vector<Vector3f> visible_positions;
     for (const int v : visible) visible_positions.push_back(posed[v]);
     if (visible.size() < 3) break;
@@ -93,7 +122,7 @@ Rigidd PlaceRestPose(const Model& model, const PointCloud& cloud, const PinholeC
     matches.clear();
     for (std::size_t k = 0; k < neighbors.size(); ++k) {
       if (neighbors[k].index < 0) continue;
-      matches.push_back({model.rest_vertices[visible[neighbors[k].index]].cast<double>(),
+      matches.push_back({rest.vertices[visible[neighbors[k].index]].cast<double>(),
                          cloud.points[k].cast<double>(), neighbors[k].squared_distance});
     }
     KeepBest(1.0 - settings.trim, matches);
@@ -103,4 +132,4 @@ Rigidd PlaceRestPose(const Model& model, const PointCloud& cloud, const PinholeC
   return camera_from_subject;
 }
 
-}  // namespace vitruvia::realtime_scape
+}  // namespace vitruvia
