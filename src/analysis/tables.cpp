@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "tracking/realtime_scape_steps.h"
+
 namespace vitruvia {
 namespace {
 
@@ -30,15 +32,18 @@ constexpr std::array kFirstColumns = {"run_id",
 // Paper A, table 1: milliseconds on one 3.4 GHz CPU, and 3.5 iterations a frame.
 constexpr double kPaperIterations = 3.5;
 struct PublishedStep {
-  const char* name;  // as methods name their steps
+  RealtimeScapeStep step;
   double ms;
   bool every_iteration;
 };
-constexpr std::array kTable1 = {
-    PublishedStep{"2 kd-tree of P", 4.2, false}, PublishedStep{"5 render", 0.5, true},
-    PublishedStep{"6 kd-tree of V", 1.5, true},  PublishedStep{"7 classify", 0.3, true},
-    PublishedStep{"8 correspond", 1.8, true},    PublishedStep{"9 assemble", 0.9, true},
-    PublishedStep{"10 solve", 0.6, true},        PublishedStep{"11 update", 0.4, true}};
+constexpr std::array kTable1 = {PublishedStep{RealtimeScapeStep::kCloudTree, 4.2, false},
+                                PublishedStep{RealtimeScapeStep::kRender, 0.5, true},
+                                PublishedStep{RealtimeScapeStep::kModelTree, 1.5, true},
+                                PublishedStep{RealtimeScapeStep::kClassify, 0.3, true},
+                                PublishedStep{RealtimeScapeStep::kCorrespond, 1.8, true},
+                                PublishedStep{RealtimeScapeStep::kAssemble, 0.9, true},
+                                PublishedStep{RealtimeScapeStep::kSolve, 0.6, true},
+                                PublishedStep{RealtimeScapeStep::kUpdate, 0.4, true}};
 constexpr double kTable1Total_ms = 25.0;
 
 const nlohmann::json* FindNumber(const RunRecord& run, const std::string& key) {
@@ -130,7 +135,7 @@ std::vector<StepRow> CompareSteps(const RunRecord& run) {
   for (const RunRecord::Step& step : run.steps) {
     StepRow row{step.name, kNone, kNone, step.median_ms, step.p95_ms, step.max_ms};
     for (const PublishedStep& paper : kTable1) {
-      if (step.name != paper.name) continue;
+      if (step.name != Name(paper.step)) continue;
       published = true;
       if (paper.every_iteration) row.paper_per_iteration_ms = paper.ms;
       row.paper_per_frame_ms = paper.every_iteration ? kPaperIterations * paper.ms : paper.ms;

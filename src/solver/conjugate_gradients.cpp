@@ -19,6 +19,10 @@ ConjugateGradientsSummary ConjugateGradients::Solve(const Eigen::MatrixXd& a,
     return preconditioner_ == Preconditioner::kJacobi ? 1.0 / d : 1.0;
   });
   x.setZero(b.size());
+  if ((a.diagonal().array() < 0.0).any()) {
+    summary.found_non_positive_curvature = true;
+    return summary;
+  }
   residual_ = b;
   const double b_norm = b.norm();
   if (b_norm == 0.0) {
@@ -31,8 +35,10 @@ ConjugateGradientsSummary ConjugateGradients::Solve(const Eigen::MatrixXd& a,
   while (summary.iterations < max_iterations) {
     a_direction_.noalias() = a * direction_;
     const double curvature = direction_.dot(a_direction_);
-    if (!(curvature > 0.0))
-      break;  // a null direction of a semidefinite matrix: nothing more to gain
+    if (!(curvature > 0.0)) {
+      summary.found_non_positive_curvature = true;
+      break;
+    }
     const double alpha = rho / curvature;
     x += alpha * direction_;
     residual_ -= alpha * a_direction_;
@@ -52,9 +58,9 @@ ConjugateGradientsSummary ConjugateGradients::Solve(const Eigen::MatrixXd& a,
   return summary;
 }
 
-// Conjugate gradients are Lanczos in disguise: their coefficients are a tridiagonal matrix whose
-// eigenvalues (Ritz values) approach the extreme ones of the preconditioned matrix (Saad
-// 2003, 6.7.3).
+// The coefficients of conjugate gradients form the tridiagonal matrix of the Lanczos process; its
+// eigenvalues (Ritz values) approach the extreme ones of the preconditioned matrix (Saad 2003,
+// 6.7.3).
 double ConjugateGradients::RitzCondition() const {
   const auto n = static_cast<Eigen::Index>(alphas_.size());
   if (n == 0) return -1.0;

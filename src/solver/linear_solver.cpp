@@ -13,11 +13,14 @@ class ConjugateGradientsSolver final : public LinearSolver {
   ConjugateGradientsSolver(const LinearSolverOptions& options, Preconditioner preconditioner)
       : options_(options), solver_(preconditioner) {}
 
-  bool Solve(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, Eigen::VectorXd& x) override {
-    solver_.Solve(a, b, options_.relative_tolerance, options_.max_iterations, x);
-    if (x.allFinite()) return true;
+  SolveStatus Solve(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
+                    Eigen::VectorXd& x) override {
+    const ConjugateGradientsSummary summary =
+        solver_.Solve(a, b, options_.relative_tolerance, options_.max_iterations, x);
+    if (!summary.found_non_positive_curvature && x.allFinite())
+      return summary.converged ? SolveStatus::kSolved : SolveStatus::kInexact;
     x.setZero();
-    return false;
+    return SolveStatus::kNotPositiveDefinite;
   }
   double EstimateCondition() const override { return solver_.RitzCondition(); }
 
@@ -31,14 +34,15 @@ class DenseCholeskySolver final : public LinearSolver {
  public:
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
-  bool Solve(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, Eigen::VectorXd& x) override {
+  SolveStatus Solve(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
+                    Eigen::VectorXd& x) override {
     factors_.compute(a.template cast<Scalar>());
     if (factors_.info() == Eigen::Success) {
       x = factors_.solve(b.template cast<Scalar>().eval()).template cast<double>();
-      if (x.allFinite()) return true;
+      if (x.allFinite()) return SolveStatus::kSolved;
     }
     x.setZero(b.size());
-    return false;
+    return SolveStatus::kNotPositiveDefinite;
   }
   double EstimateCondition() const override {
     if (factors_.rows() == 0 || factors_.info() != Eigen::Success) return -1.0;
@@ -53,15 +57,16 @@ class DenseCholeskySolver final : public LinearSolver {
 template <class Scalar>
 class SparseCholeskySolver final : public LinearSolver {
  public:
-  bool Solve(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, Eigen::VectorXd& x) override {
+  SolveStatus Solve(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
+                    Eigen::VectorXd& x) override {
     sparse_ = a.template cast<Scalar>().sparseView();
     factors_.compute(sparse_);
     if (factors_.info() == Eigen::Success) {
       x = factors_.solve(b.template cast<Scalar>().eval()).template cast<double>();
-      if (x.allFinite()) return true;
+      if (x.allFinite()) return SolveStatus::kSolved;
     }
     x.setZero(b.size());
-    return false;
+    return SolveStatus::kNotPositiveDefinite;
   }
   double EstimateCondition() const override { return -1.0; }
 

@@ -1,4 +1,4 @@
-// Ways to solve the normal equations of one step.
+// Solvers for the normal equations of one step.
 #pragma once
 
 #include <memory>
@@ -8,10 +8,10 @@
 namespace vitruvia {
 
 enum class LinearSolverKind {
-  kConjugateGradients,                // as they are
-  kPreconditionedConjugateGradients,  // with the inverse diagonal
+  kConjugateGradients,                // without preconditioner
+  kPreconditionedConjugateGradients,  // Jacobi: the inverse diagonal
   kDenseCholesky,
-  kSparseCholesky,  // with a fill-reducing order; of use when blocks are mostly empty
+  kSparseCholesky,  // with a fill-reducing ordering, for matrices whose blocks are mostly empty
 };
 enum class Precision { kDouble, kFloat };
 
@@ -22,13 +22,23 @@ struct LinearSolverOptions {
   int max_iterations = 204;                  // conjugate gradients
 };
 
+enum class SolveStatus {
+  kSolved,  // to the tolerance of conjugate gradients, to rounding by Cholesky
+  // Conjugate gradients reached their iteration limit first: x reduces ½ xᵀA x − bᵀx, but A x = b
+  // does not hold to the tolerance.
+  kInexact,
+  kNotPositiveDefinite,  // to rounding, or not finite: x is 0
+};
+
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
-  // Solves A x = b, A symmetric positive definite. False if A is not (to rounding): x is then 0.
-  virtual bool Solve(const Eigen::MatrixXd& a, const Eigen::VectorXd& b, Eigen::VectorXd& x) = 0;
-  // An estimate of the last A's condition number: a lower bound by Ritz values of the (scaled)
-  // matrix from conjugate gradients, LAPACK's 1-norm estimate from Cholesky. -1: not known.
+  // Solves A x = b, A symmetric positive definite.
+  virtual SolveStatus Solve(const Eigen::MatrixXd& a, const Eigen::VectorXd& b,
+                            Eigen::VectorXd& x) = 0;
+  // An estimate of the last A's condition number: from conjugate gradients a lower bound by Ritz
+  // values of the (preconditioned) matrix, from dense Cholesky LAPACK's 1-norm estimate, from
+  // sparse Cholesky none. -1 where there is none.
   virtual double EstimateCondition() const = 0;
 };
 

@@ -6,9 +6,10 @@
 #include <Eigen/Dense>
 
 #include "core/random.h"
-#include "methods/realtime_scape/terms/fit_term.h"
-#include "methods/realtime_scape/terms/inertia_term.h"
+#include "methods/realtime_scape/model.h"
+#include "solver/block_normal_equations.h"
 #include "support/tiny_body.h"
+#include "tracking/classification.h"
 
 namespace vitruvia::realtime_scape {
 
@@ -51,6 +52,12 @@ inline Vector3d PosedVertex(const Model& model, const BoneTransforms& camera_fro
   }
   return posed;
 }
+
+// Correspondences of one linearisation.
+struct FitData {
+  VertexClasses classes;    // V1 with its observed depths, V2
+  std::vector<Pair> pairs;  // of V2 and P2
+};
 
 struct PosedTinyBody {
   static constexpr int kCellsPerSegment = 2;
@@ -104,19 +111,11 @@ struct PosedTinyBody {
 
   int VertexCount() const { return static_cast<int>(model.rest_vertices.size()); }
 
-  BodyPose RestPose() const {
-    BodyPose pose;
-    for (int j = 0; j < kBoneCount; ++j) {
-      pose[j] = {camera_from_rest.rotation, camera_from_rest * model.rest_centers[j]};
-    }
-    return pose;
-  }
-
   const PinholeCamera camera;
   const Rigidd camera_from_rest{Vector3d(1, -1, -1).asDiagonal(), {0.1, 0.9, 2.8}};
   const BodyModel body = TinyBody(kCellsPerSegment);
   const Model model{body};
-  const BodyPose rest = RestPose();
+  const BodyPose rest = RestPose(model, camera_from_rest);
   const BodyPose near_rest = Moved(rest, RandomIncrement("near", 1e-8));
   const BodyPose bent = Moved(rest, RandomIncrement("bent", 0.2));
   const LocalRotations previous = LocalRotationsOf(Moved(rest, RandomIncrement("previous", 0.1)));

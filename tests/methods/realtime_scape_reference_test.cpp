@@ -63,7 +63,8 @@ class Reference : public testing::Test, protected PosedTinyBody {
   double Assemble(const Frozen& frozen, const JointTerm& joints, const BodyPose& pose,
                   BlockNormalEquations& equations) const {
     equations.Reset();
-    AddFitTerm(model, pose, camera, frozen.data, frozen.fit, kUnit_m, equations);
+    AddFitTerm(model, pose, camera, frozen.data.classes, frozen.data.pairs, frozen.fit, kUnit_m,
+               equations);
     joints.Add(model, pose, kJointWeight, kUnit_m, equations);
     AddInertiaTerm(pose, previous, kInertiaWeight, equations);
     AddAxisTerm(pose, kAxisWeight, equations);
@@ -80,13 +81,8 @@ class Reference : public testing::Test, protected PosedTinyBody {
     Eigen::VectorXd x;
     for (int i = 0; i < steps; ++i) {
       Assemble(frozen, joints, solution.pose, equations);
-      EXPECT_TRUE(solver->Solve(equations.hessian(), -equations.gradient(), x));
-      for (int j = 0; j < kBoneCount; ++j) {
-        BonePose& bone = solution.pose[j];
-        bone.rotation =
-            Turned(bone.rotation, x.segment<3>(kBlockSize * j), RotationUpdate::kExponential);
-        bone.center += kUnit_m * x.segment<3>(kBlockSize * j + 3);
-      }
+      EXPECT_EQ(solver->Solve(equations.hessian(), -equations.gradient(), x), SolveStatus::kSolved);
+      solution.pose = ApplyIncrement(solution.pose, x, kUnit_m, RotationUpdate::kExponential).pose;
     }
     solution.energy = Assemble(frozen, joints, solution.pose, equations);
     for (const BonePose& bone : solution.pose) {

@@ -6,6 +6,7 @@
 
 #include "methods/posed_tiny_body.h"
 #include "methods/realtime_scape/terms/axis_term.h"
+#include "methods/realtime_scape/terms/energy_terms.h"
 #include "methods/realtime_scape/terms/fit_term.h"
 #include "methods/realtime_scape/terms/inertia_term.h"
 #include "methods/realtime_scape/terms/joint_term.h"
@@ -76,7 +77,7 @@ class Terms : public testing::Test, protected PosedTinyBody {
     const FitSettings settings{
         .surface_residual = surface, .pair_residual = pair, .kernel = kernel};
     return [this, data, settings](const BodyPose& pose, BlockNormalEquations& equations) {
-      AddFitTerm(model, pose, camera, data, settings, kUnit_m, equations);
+      AddFitTerm(model, pose, camera, data.classes, data.pairs, settings, kUnit_m, equations);
     };
   }
   Term FitPoints(const FitData& data) const {
@@ -142,11 +143,11 @@ TEST_F(Terms, APlanePairAsksNothingAlongThePlane) {
   settings.kernel = RobustKernel::kNone;
   settings.pair_residual = PairResidual::kPlane;
   BlockNormalEquations plane(kBoneCount), point(kBoneCount);
-  EXPECT_NEAR(AddFitTerm(model, rest, camera, data, settings, kUnit_m, plane),
-              std::pow(0.01 / kUnit_m, 2), 1e-5);
+  AddFitTerm(model, rest, camera, data.classes, data.pairs, settings, kUnit_m, plane);
+  EXPECT_NEAR(plane.energy(), std::pow(0.01 / kUnit_m, 2), 1e-5);
   settings.pair_residual = PairResidual::kPoint;
-  EXPECT_NEAR(AddFitTerm(model, rest, camera, data, settings, kUnit_m, point),
-              0.001 / (kUnit_m * kUnit_m), 1e-5);
+  AddFitTerm(model, rest, camera, data.classes, data.pairs, settings, kUnit_m, point);
+  EXPECT_NEAR(point.energy(), 0.001 / (kUnit_m * kUnit_m), 1e-5);
 }
 
 TEST_F(Terms, TheFitIsZeroWhereEveryVertexIsWhereItWasSeen) {
@@ -195,6 +196,40 @@ TEST_F(Terms, InertiaIsZeroWhileEveryJointHoldsStill) {
   for (int j = 0; j < kBoneCount; ++j) turned[j].rotation = rest[j].rotation * bones[j].rotation;
   EXPECT_NEAR(Energy(Inertia(LocalRotationsOf(rest)), turned),
               5.0 * 8.0 * std::pow(std::sin(0.5 * angle), 2), 1e-12);
+}
+
+// The list adds every term with its own weight, and says which energy is whose.
+TEST_F(Terms, TheListAddsEachTermOnceWithItsWeight) {
+  const FitData data = Pairs(bent, 7, 0.02);
+  Settings settings;
+  settings.length_unit_m = kUnit_m;
+  settings.weights[EnergyTerm::kJoint] = 3.0;
+  settings.weights[EnergyTerm::kInertia] = 5.0;
+  settings.weights[EnergyTerm::kAxis] = 7.0;
+  const JointTerm joints(model, settings.joint_rows);
+  BlockNormalEquations all(kBoneCount), single(kBoneCount);
+  const Energies energies = AddEnergyTerms(
+      {model, camera, settings, joints, bent, previous, data.classes, data.pairs}, all);
+  const auto energy_of = [&](EnergyTerm term) { return energies[static_cast<std::size_t>(term)]; };
+  AddFitTerm(model, bent, camera, data.classes, data.pairs, settings.fit, kUnit_m, single);
+  EXPECT_DOUBLE_EQ(energy_of(EnergyTerm::kFit), single.energy());
+  const double tolerance = 1e-9 * all.energy();  // differences of running sums
+  EXPECT_NEAR(energy_of(EnergyTerm::kJoint), 0.3 * Energy(Joint(settings.joint_rows), bent),
+              tolerance);
+  EXPECT_NEAR(energy_of(EnergyTerm::kInertia), Energy(Inertia(previous), bent), tolerance);
+  EXPECT_NEAR(energy_of(EnergyTerm::kAxis), 7.0 * Energy(Axis(), bent), tolerance);
+  EXPECT_STREQ(Name(EnergyTerm::kInertia), "inertia");
+}
+
+// A linear rotation update leaves matrices that are no rotations: R ← (I + r̂) R. A joint that has
+// not moved costs nothing there either.
+TEST_F(Terms, InertiaIsZeroWhileJointsHoldStillThoughRotationsHaveDriftedAway) {
+  BodyPose drifted = Articulated();
+  for (int j = 0; j < kBoneCount; ++j) {
+    const Vector3d step(0.1, -0.05 * j, 0.02 * j);
+    drifted[j].rotation += (Skew<double>(step) * drifted[j].rotation).eval();
+  }
+  EXPECT_NEAR(Energy(Inertia(LocalRotationsOf(drifted)), drifted), 0.0, 1e-20);
 }
 
 TEST_F(Terms, ExactJointTermIsTheSumOverSharedVertices) {

@@ -1,7 +1,6 @@
 // The tracker as a whole, on depth drawn by the z-buffer.
 #include "methods/realtime_scape/realtime_scape.h"
 
-#include <functional>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -80,44 +79,6 @@ TEST(RealtimeScape, SurvivesFramesThatShowNothingSensible) {
     EXPECT_FALSE(IsFailure(after.outcome)) << after.message;
     EXPECT_LT(stage.MeanError(after, 0.0), 0.01);
   }
-}
-
-TEST(RealtimeScape, EverySettingTracks) {
-  Stage stage;
-  const auto error_with = [&](const std::function<void(Settings&)>& change) {
-    Settings settings;
-    change(settings);
-    RealtimeScape tracker{settings};
-    tracker.Start(stage.body, stage.camera);
-    double angle = 0.0;
-    TrackResult result;
-    for (int i = 0; i <= 8; ++i) {
-      angle = 0.03 * i;
-      result = tracker.TrackFrame(stage.Frame(i, angle));
-    }
-    EXPECT_FALSE(IsFailure(result.outcome)) << result.message;
-    return stage.MeanError(result, angle);
-  };
-  const double bound_m = 0.012;
-  for (const auto association :
-       {Association::kKdTree, Association::kWindow, Association::kExhaustive}) {
-    EXPECT_LT(error_with([&](Settings& s) { s.fit.association = association; }), bound_m);
-  }
-  for (const auto kind :
-       {LinearSolverKind::kConjugateGradients, LinearSolverKind::kPreconditionedConjugateGradients,
-        LinearSolverKind::kSparseCholesky}) {
-    EXPECT_LT(error_with([&](Settings& s) { s.solver.linear.kind = kind; }), bound_m);
-  }
-  EXPECT_LT(error_with([](Settings& s) { s.solver.linear.precision = Precision::kFloat; }),
-            bound_m);
-  EXPECT_LT(error_with([](Settings& s) { s.fit.pair_residual = PairResidual::kPlane; }), bound_m);
-  EXPECT_LT(error_with([](Settings& s) { s.fit.kernel = RobustKernel::kNone; }), bound_m);
-  EXPECT_LT(error_with([](Settings& s) { s.fit.surface_stride = 2; }), bound_m);
-  EXPECT_LT(error_with([](Settings& s) { s.fit.visibility_iterations = 1; }), bound_m);
-  EXPECT_LT(error_with([](Settings& s) { s.motion.model = MotionModel::kConstantRotation; }),
-            bound_m);
-  EXPECT_LT(error_with([](Settings& s) { s.rotation_update = RotationUpdate::kLinearOrthonormal; }),
-            bound_m);
 }
 
 TEST(RealtimeScape, IgnoresPixelsThatAreNoNumbers) {

@@ -31,7 +31,7 @@ TEST(LinearSolver, AllKindsSolveToTheirPrecision) {
       const auto solver =
           MakeLinearSolver({.kind = kind, .precision = precision, .relative_tolerance = 1e-12});
       Eigen::VectorXd x;
-      ASSERT_TRUE(solver->Solve(a, a * expected, x));
+      ASSERT_EQ(solver->Solve(a, a * expected, x), SolveStatus::kSolved);
       const double tolerance = precision == Precision::kFloat ? 1e-4 : 1e-9;
       EXPECT_LT((x - expected).norm(), tolerance * expected.norm()) << static_cast<int>(kind);
     }
@@ -43,7 +43,36 @@ TEST(LinearSolver, CholeskyRefusesWhatIsNotPositiveDefinite) {
   a(3, 3) = -5.0;
   for (const auto kind : {LinearSolverKind::kDenseCholesky, LinearSolverKind::kSparseCholesky}) {
     Eigen::VectorXd x = Eigen::VectorXd::Ones(kUnknowns);
-    EXPECT_FALSE(MakeLinearSolver({.kind = kind})->Solve(a, Eigen::VectorXd::Ones(kUnknowns), x));
+    EXPECT_EQ(MakeLinearSolver({.kind = kind})->Solve(a, Eigen::VectorXd::Ones(kUnknowns), x),
+              SolveStatus::kNotPositiveDefinite);
+    EXPECT_EQ(x, Eigen::VectorXd::Zero(kUnknowns));
+  }
+}
+
+TEST(LinearSolver, ConjugateGradientsSayWhetherTheyReachedTheirTolerance) {
+  const Eigen::MatrixXd a = MatrixOfCondition(400.0);
+  const Eigen::VectorXd b = Eigen::VectorXd::Ones(kUnknowns);
+  for (const auto kind : {LinearSolverKind::kConjugateGradients,
+                          LinearSolverKind::kPreconditionedConjugateGradients}) {
+    Eigen::VectorXd x;
+    EXPECT_EQ(MakeLinearSolver({.kind = kind, .max_iterations = 100})->Solve(a, b, x),
+              SolveStatus::kSolved);
+    // Cut short, x is a step on the way: it lowers ½ xᵀA x − bᵀx.
+    EXPECT_EQ(MakeLinearSolver({.kind = kind, .max_iterations = 3})->Solve(a, b, x),
+              SolveStatus::kInexact);
+    EXPECT_LT(0.5 * x.dot(a * x) - b.dot(x), 0.0);
+    EXPECT_GT((a * x - b).norm(), 1e-6 * b.norm());
+  }
+}
+
+TEST(LinearSolver, ConjugateGradientsRefuseWhatIsNotPositiveDefinite) {
+  Eigen::MatrixXd a = MatrixOfCondition(10.0);
+  a(3, 3) = -5.0;
+  for (const auto kind : {LinearSolverKind::kConjugateGradients,
+                          LinearSolverKind::kPreconditionedConjugateGradients}) {
+    Eigen::VectorXd x = Eigen::VectorXd::Ones(kUnknowns);
+    EXPECT_EQ(MakeLinearSolver({.kind = kind})->Solve(a, Eigen::VectorXd::Ones(kUnknowns), x),
+              SolveStatus::kNotPositiveDefinite);
     EXPECT_EQ(x, Eigen::VectorXd::Zero(kUnknowns));
   }
 }

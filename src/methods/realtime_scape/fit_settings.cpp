@@ -1,21 +1,23 @@
-// The settings of term 1 and of what its points may pull at.
+// The settings of term 1 and of its correspondences.
 #include "methods/realtime_scape/settings.h"
 
 namespace vitruvia::realtime_scape {
 
 void FitSettings::Describe(Fields& f) {
-  f.Choice("surface_residual", surface_residual,
-           {{"depth", SurfaceResidual::kDepth}, {"plane", SurfaceResidual::kPlane}},
-           {.meaning = "what a V1 vertex is asked to do: match the captured depth, or the captured "
-                       "surface along its normal",
-            .origin = Origin::kTuned,
-            .source = "paper A: depth; see the report of realtime_scape/fig11"});
-  f.Choice("pair_residual", pair_residual,
-           {{"point", PairResidual::kPoint}, {"plane", PairResidual::kPlane}},
-           {.meaning = "what a V2 or P2 pair is asked to do: meet, or meet along the vertex's "
-                       "normal",
-            .origin = Origin::kPaper,
-            .source = "paper A, sec. 6.2: three rows each"});
+  f.Choice(
+      "surface_residual", surface_residual,
+      {{"depth", SurfaceResidual::kDepth}, {"plane", SurfaceResidual::kPlane}},
+      {.meaning = "residual of a V1 vertex: its distance from the captured surface in depth or "
+                  "along the vertex's normal",
+       .origin = Origin::kTuned,
+       .source = "paper A: depth; see the report of realtime_scape/fig11"});
+  f.Choice(
+      "pair_residual", pair_residual,
+      {{"point", PairResidual::kPoint}, {"plane", PairResidual::kPlane}},
+      {.meaning = "residual of a V2 or P2 pair: its distance in three coordinates or along the "
+                  "vertex's normal",
+       .origin = Origin::kPaper,
+       .source = "paper A, sec. 6.2: three rows each"});
   DescribeVisibility(f);
   DescribeClasses(f);
   DescribePairs(f);
@@ -25,29 +27,31 @@ void FitSettings::Describe(Fields& f) {
 void FitSettings::DescribeVisibility(Fields& f) {
   f.Choice("rasterizer", rasterizer,
            {{"all_triangles", Rasterizer::kAllTriangles}, {"front_faces", Rasterizer::kFrontFaces}},
-           {.meaning = "how the model's depth is drawn",
+           {.meaning = "which triangles are rendered for the model's depth",
             .origin = Origin::kTuned,
-            .source = "the same picture of a closed mesh in less time"});
+            .source = "the same depth for a closed mesh in less time"});
   f.Integer("visibility_iterations", visibility_iterations,
-            {.meaning = "the model is drawn anew in so many iterations of a frame; later ones use "
-                        "the last drawing",
+            {.meaning = "number of iterations of a frame that render the model; later ones reuse "
+                        "the last rendering",
              .min = 1,
              .max = 1000,
              .origin = Origin::kPaper,
              .source = "paper A, algorithm 1, line 5: in each"});
-  f.Number("visible_within_m", visible_within_m,
-           {.meaning = "a vertex is visible this close to the rendered depth at its pixel",
-            .unit = "m",
-            .min = 1e-5,
-            .max = 1,
-            .origin = Origin::kPaper,
-            .source = "paper A, sec. 6.2"});
+  f.Number(
+      "visible_within_m", visible_within_m,
+      {.meaning = "a vertex is visible when its depth differs from the rendered depth at its pixel "
+                  "by less",
+       .unit = "m",
+       .min = 1e-5,
+       .max = 1,
+       .origin = Origin::kPaper,
+       .source = "paper A, sec. 6.2"});
 }
 
 void FitSettings::DescribeClasses(Fields& f) {
   f.Number("near_surface_m", near_surface_m,
-           {.meaning = "a visible vertex this close in depth to the captured pixel is V1, and a "
-                       "captured pixel this close to the rendered depth is explained (P1)",
+           {.meaning = "largest difference in depth at which a visible vertex is near the captured "
+                       "surface (V1) and a captured pixel is explained by the rendered one (P1)",
             .unit = "m",
             .min = 1e-4,
             .max = 1,
@@ -56,20 +60,23 @@ void FitSettings::DescribeClasses(Fields& f) {
   f.Integer(
       "edge_px", edge_px,
       {.meaning =
-           "a vertex or point that is near within this many columns and rows is neither V2 nor P2",
+           "a vertex or point that is near in depth to any pixel within this many columns and "
+           "rows is neither V2 nor P2",
        .unit = "px",
        .min = 0,
        .max = 8,
        .origin = Origin::kTuned,
-       .source = "paper A: 0; pairs at silhouettes then pull at a model that fits"});
-  f.Choice("behind_surface", behind_surface,
-           {{"elsewhere", BehindSurface::kElsewhere}, {"hidden", BehindSurface::kHidden}},
-           {.meaning = "what a visible vertex behind the captured surface is: V2, or hidden by "
-                       "another part of the body and left alone",
-            .origin = Origin::kTuned,
-            .source = "paper A: V2; a limb that vanishes behind the body is then dragged along"});
+       .source = "paper A: 0; pairs at silhouettes then move a model that fits"});
+  f.Choice(
+      "behind_surface", behind_surface,
+      {{"elsewhere", BehindSurface::kElsewhere}, {"hidden", BehindSurface::kHidden}},
+      {.meaning = "class of a visible vertex behind the captured surface: V2, or hidden by another "
+                  "part of the body and ignored",
+       .origin = Origin::kTuned,
+       .source = "paper A: V2; a limb that vanishes behind the body is then dragged along"});
   f.Number("smooth_m", smooth_m,
-           {.meaning = "captured depth is interpolated between pixels that differ by no more",
+           {.meaning =
+                "captured depth is interpolated between pixels whose depths differ by at most this",
             .unit = "m",
             .min = 0,
             .max = 1,
@@ -78,26 +85,28 @@ void FitSettings::DescribeClasses(Fields& f) {
 }
 
 void FitSettings::DescribePairs(Fields& f) {
-  f.Choice("association", association,
-           {{"kd_tree", Association::kKdTree},
-            {"window", Association::kWindow},
-            {"exhaustive", Association::kExhaustive}},
-           {.meaning = "how the nearest points and vertices of V2 and P2 are found: by trees, in a "
-                       "window of the image, or by looking at all",
-            .origin = Origin::kTuned,
-            .source = "paper A: kd_tree; few queries are left, so that building trees costs more "
-                      "than it saves"});
+  f.Choice(
+      "association", association,
+      {{"kd_tree", Association::kKdTree},
+       {"window", Association::kWindow},
+       {"exhaustive", Association::kExhaustive}},
+      {.meaning = "search for the nearest points and vertices of V2 and P2: by trees, in a window "
+                  "of the image, or over all",
+       .origin = Origin::kTuned,
+       .source = "paper A: kd_tree; there are few queries, so that building trees costs more "
+                 "than it saves"});
   if (f.Applies(association == Association::kWindow)) {
-    f.Integer("window_px", window_px,
-              {.meaning = "half width of the window at most",
-               .unit = "px",
-               .min = 0,
-               .max = 4096,
-               .origin = Origin::kGuessed,
-               .source = "0.08 m at 1 m and 320 columns"});
+    f.Integer(
+        "window_px", window_px,
+        {.meaning = "maximum half width of the image window in which nearest points are searched",
+         .unit = "px",
+         .min = 0,
+         .max = 4096,
+         .origin = Origin::kGuessed,
+         .source = "0.08 m at 1 m and 320 columns"});
   }
   f.Number("pair_cutoff_m", pair_cutoff_m,
-           {.meaning = "V2 and P2 pairs farther apart are dropped",
+           {.meaning = "V2 and P2 pairs with a larger distance are dropped",
             .unit = "m",
             .min = 1e-4,
             .max = 1,
@@ -118,25 +127,28 @@ void FitSettings::DescribeWeights(Fields& f) {
             .max = 1e6,
             .origin = Origin::kPaper,
             .source = "paper A, eq. 7"});
-  f.Integer("surface_stride", surface_stride,
-            {.meaning = "every how many vertices of V1 one gets a row, of as many times the weight",
-             .min = 1,
-             .max = 64,
-             .origin = Origin::kPaper,
-             .source = "paper A: 1"});
+  f.Integer(
+      "surface_stride", surface_stride,
+      {.meaning =
+           "every how many vertices of V1 one gets a row, whose weight is multiplied by the same "
+           "number",
+       .min = 1,
+       .max = 64,
+       .origin = Origin::kPaper,
+       .source = "paper A: 1"});
   f.Choice("kernel", kernel,
            {{"none", RobustKernel::kNone},
             {"huber", RobustKernel::kHuber},
             {"tukey", RobustKernel::kTukey}},
-           {.meaning = "how rows that do not fit lose influence",
+           {.meaning = "robust kernel that reduces the influence of large residuals",
             .origin = Origin::kTuned,
             .source = "paper A: none; on configs/cmu/walk.json (diagonal) huber more than halves "
                       "the mean error"});
   if (f.Applies(kernel != RobustKernel::kNone)) {
     f.Number(
         "kernel_scale_m", kernel_scale_m,
-        {.meaning = "residual at which a row begins to lose influence (huber) or has none left "
-                    "(tukey)",
+        {.meaning = "residual from which the robust kernel reduces a row's influence (huber) or at "
+                    "which none is left (tukey)",
          .unit = "m",
          .min = 1e-6,
          .max = 10,
@@ -146,45 +158,49 @@ void FitSettings::DescribeWeights(Fields& f) {
 }
 
 void SearchSettings::Describe(Fields& f) {
-  f.Choice("candidates", candidates,
-           {{"visible", PairCandidates::kVisible}, {"reach", PairCandidates::kReach}},
-           {.meaning = "what a point of P2 may pull at: every visible vertex, or those of bones "
-                       "that lack points of their own, unseen ones too",
-            .origin = Origin::kTuned,
-            .source = "paper A: visible; a hand that comes out from behind the body then pulls at "
-                      "the body"});
+  f.Choice(
+      "candidates", candidates,
+      {{"visible", PairCandidates::kVisible}, {"reach", PairCandidates::kReach}},
+      {.meaning = "vertices with which a point of P2 may be paired: every visible one, or those of "
+                  "bones that are not well explained, unobserved bones included",
+       .origin = Origin::kTuned,
+       .source = "paper A: visible; a hand that appears from behind the body is then paired "
+                 "with the body"});
   if (!f.Applies(candidates == PairCandidates::kReach)) return;
   f.Number("seen_share", seen_share,
-           {.meaning = "a bone is seen when this share of all its vertices is V1",
+           {.meaning =
+                "a bone is observed in a frame when at least this share of all its vertices is V1",
             .min = 0,
             .max = 1,
             .origin = Origin::kTuned,
             .source = "about 0.4 of a bone's vertices face the camera"});
-  f.Number("settled_share", settled_share,
-           {.meaning = "a bone is settled, and takes no points of P2, when more than this share of "
-                       "its visible vertices is V1",
-            .min = 0,
-            .max = 1,
-            .origin = Origin::kTuned,
-            .source = "configs/cmu/walk.json"});
   f.Number(
-      "owned_m", owned_m,
-      {.meaning = "a point of P2 this close to a settled bone is that bone's and pulls at none",
-       .unit = "m",
+      "well_explained_share", well_explained_share,
+      {.meaning = "a bone is well explained, and gets no points of P2, when more than this share "
+                  "of its visible vertices is V1",
        .min = 0,
-       .max = 10,
+       .max = 1,
        .origin = Origin::kTuned,
-       .source = "configs/cmu/walk.json: skin differs by some centimetres at silhouettes"});
-  f.Number("growth_m", growth_m,
-           {.meaning = "the cutoff of a bone's pairs grows by this for each frame in which it was "
-                       "not seen",
+       .source = "configs/cmu/walk.json"});
+  f.Number("owned_m", owned_m,
+           {.meaning =
+                "a point of P2 this close to a well explained bone belongs to it and is not paired",
             .unit = "m",
             .min = 0,
             .max = 10,
             .origin = Origin::kTuned,
-            .source = "configs/cmu/walk.json"});
+            .source = "configs/cmu/walk.json: skin differs by some centimetres at silhouettes"});
+  f.Number(
+      "growth_m", growth_m,
+      {.meaning = "growth of a bone's search radius, which starts at pair_cutoff_m, per frame in "
+                  "which the bone is not observed",
+       .unit = "m",
+       .min = 0,
+       .max = 10,
+       .origin = Origin::kTuned,
+       .source = "configs/cmu/walk.json"});
   f.Number("reach_m", reach_m,
-           {.meaning = "and to this at most",
+           {.meaning = "upper bound of a bone's search radius",
             .unit = "m",
             .min = 0,
             .max = 10,

@@ -22,12 +22,21 @@ Model::Model(const BodyModel& subject)
       rest_centers[bone] += weight * rest_vertices[i].cast<double>();
     }
     first_influence.push_back(static_cast<int>(influences.size()));
+    vertices_of_bone[MainBone(static_cast<int>(i))].push_back(static_cast<int>(i));
   }
-  // A bone without vertices has no surface to be about; its joint will do.
+  // A bone without vertices rotates about its joint.
   for (int j = 0; j < kBoneCount; ++j) {
     rest_centers[j] =
         mass[j] > 0.0 ? Vector3<double>(rest_centers[j] / mass[j]) : skeleton.joints[j];
   }
+}
+
+BodyPose RestPose(const Model& model, const Rigidd& camera_from_subject) {
+  BodyPose pose;
+  for (int j = 0; j < kBoneCount; ++j) {
+    pose[j] = {camera_from_subject.rotation, camera_from_subject * model.rest_centers[j]};
+  }
+  return pose;
 }
 
 BoneTransforms ToTransforms(const Model& model, const BodyPose& pose) {

@@ -1,4 +1,4 @@
-// What Realtime SCAPE keeps of a subject, and the pose it estimates.
+// What Realtime SCAPE needs of a subject, and its surface in a pose.
 #pragma once
 
 #include <array>
@@ -6,25 +6,15 @@
 #include <vector>
 
 #include "body/body_model.h"
-#include "math/rigid.h"
+#include "methods/realtime_scape/body_pose.h"
 
 namespace vitruvia::realtime_scape {
 
-// One bone's share in a vertex.
+// One bone's weight in a vertex.
 struct Influence {
   int bone;
   float weight;
 };
-
-// Each bone's rotation is about its own centre (the weighted mean of its vertices), not about the
-// subject's origin on the floor: the same energy, but a rotation step no longer swings a head by
-// metres, so the step sizes of the stopping rule mean what they say and the equations are better
-// conditioned.
-struct BonePose {
-  Matrix3<double> rotation = Matrix3<double>::Identity();  // camera_from_rest
-  Vector3<double> center = Vector3<double>::Zero();        // camera frame, metres
-};
-using BodyPose = std::array<BonePose, kBoneCount>;
 
 struct Model {
   explicit Model(const BodyModel& subject);
@@ -34,14 +24,21 @@ struct Model {
             influences.data() + first_influence[vertex + 1]};
   }
 
+  // The bone with the largest weight.
+  int MainBone(int vertex) const { return weights.bones[vertex][0]; }
+
   std::vector<Vector3f> rest_vertices, rest_normals;  // V, subject frame
   std::vector<Triangle> triangles;
   SkinWeights weights;
   std::vector<Influence> influences;  // of all vertices, one after the other
   std::vector<int> first_influence;   // V + 1
+  std::array<std::vector<int>, kBoneCount> vertices_of_bone;  // by main bone, ascending
   Skeleton skeleton;
   std::array<Vector3<double>, kBoneCount> rest_centers;  // subject frame
 };
+
+// The pose of a body that stands in the rest pose.
+BodyPose RestPose(const Model& model, const Rigidd& camera_from_subject);
 
 BoneTransforms ToTransforms(const Model& model, const BodyPose& pose);
 

@@ -1,17 +1,29 @@
-// How a pose takes the step that the linear solver found.
+// Line 11 of algorithm 1: the pose after the increment that the linear solver found.
 #pragma once
 
-#include "methods/realtime_scape/model.h"
+#include <Eigen/Core>
+
+#include "methods/realtime_scape/body_pose.h"
 #include "methods/realtime_scape/settings.h"
 
 namespace vitruvia::realtime_scape {
 
-// The rotation after a step (radians, camera frame).
-Matrix3<double> Turned(const Matrix3<double>& rotation, const Vector3<double>& step,
-                       RotationUpdate update);
+struct PoseStep {
+  BodyPose pose;
+  double largest_rotation_rad = 0.0, largest_translation_m = 0.0;  // of any bone
+};
 
-// Whether some bone's rotation is none any more, beyond what a linear update may do in a frame, or
-// a bone has left for where no camera looks.
-bool IsTornApart(const BodyPose& pose);
+// `increment` has six entries for each bone: a rotation vector (camera frame, radians) about the
+// bone's centre and a translation in units of length_unit_m.
+PoseStep ApplyIncrement(const BodyPose& pose, const Eigen::VectorXd& increment,
+                        double length_unit_m, RotationUpdate update);
+
+// The rotation after an increment (rotation vector in the camera frame, radians).
+Matrix3<double> ApplyRotationIncrement(const Matrix3<double>& rotation,
+                                       const Vector3<double>& increment, RotationUpdate update);
+
+// Whether a bone's matrix is farther from any rotation than a linear update takes it in one frame,
+// or a bone has left the range of every depth camera.
+bool HasDiverged(const BodyPose& pose);
 
 }  // namespace vitruvia::realtime_scape

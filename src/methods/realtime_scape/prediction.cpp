@@ -5,7 +5,7 @@
 namespace vitruvia::realtime_scape {
 namespace {
 
-// Where a bone's joint with its parent is, by the one bone and by the other.
+// The position of a joint as one of its bones moves it (camera frame).
 Vector3d JointUnder(const Model& model, const BodyPose& pose, int bone, int joint) {
   return pose[bone].center +
          pose[bone].rotation * (model.skeleton.joints[joint] - model.rest_centers[bone]);
@@ -13,24 +13,25 @@ Vector3d JointUnder(const Model& model, const BodyPose& pose, int bone, int join
 
 }  // namespace
 
-Prediction PredictPose(const Model& model, const BodyPose& last, const BodyPose& before_last,
-                       const BoneSight& sight, const MotionSettings& settings) {
+Prediction PredictPose(const Model& model, const PoseHistory& history,
+                       const MotionSettings& settings) {
+  const BodyPose& last = history.last;
   Prediction prediction{last, LocalRotationsOf(last)};
   if (settings.model == MotionModel::kConstantRotation) return prediction;
 
-  const LocalRotations before = LocalRotationsOf(before_last);
+  const LocalRotations before = LocalRotationsOf(history.before_last);
   for (int j = 0; j < kBoneCount; ++j) {
-    const double share =
-        settings.velocity_share * std::pow(settings.hidden_decay, sight.frames_unseen(j));
+    const double share = settings.velocity_share *
+                         std::pow(settings.hidden_decay, history.visibility.frames_unobserved[j]);
     Matrix3<double>& local = prediction.local_rotations[j];
-    const Matrix3<double> turned = before[j].transpose() * local;
-    local = local * ExpSo3<double>(share * LogSo3<double>(turned));
+    const Matrix3<double> change = InverseOf(before[j]) * local;
+    local = local * ExpSo3<double>(share * LogSo3<double>(change));
 
     BonePose& bone = prediction.pose[j];
     const int parent = Bones()[j].parent;
     if (parent < 0) {
       bone.rotation = local;
-      bone.center += share * (last[j].center - before_last[j].center);
+      bone.center += share * (last[j].center - history.before_last[j].center);
       continue;
     }
     const Vector3d gap = JointUnder(model, last, j, j) - JointUnder(model, last, parent, j);

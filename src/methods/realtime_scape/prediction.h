@@ -1,23 +1,22 @@
-// Where a frame begins, and what its inertia holds on to.
+// Line 1 of algorithm 1 (paper A): the pose in which a frame starts.
 #pragma once
 
-#include "methods/realtime_scape/bone_sight.h"
 #include "methods/realtime_scape/model.h"
+#include "methods/realtime_scape/pose_history.h"
 #include "methods/realtime_scape/settings.h"
-#include "methods/realtime_scape/terms/inertia_term.h"
 
 namespace vitruvia::realtime_scape {
 
 struct Prediction {
   BodyPose pose;
-  LocalRotations local_rotations;
+  LocalRotations local_rotations;  // what the inertia term holds on to
 };
 
-// Constant rotation (paper A, algorithm 1, line 1): the last frame's pose. Constant velocity: every
-// joint turns on, and the pelvis moves on, as it did between the last two frames, times
-// velocity_share and, for each frame that a bone has not been seen, once more hidden_decay. Limbs
-// stay as far from their joints as they were.
-Prediction PredictPose(const Model& model, const BodyPose& last, const BodyPose& before_last,
-                       const BoneSight& sight, const MotionSettings& settings);
+// Constant rotation (paper A): the last frame's pose. Constant velocity: the local rotation of
+// every joint and the translation of the root repeat their change between the last two frames,
+// times velocity_share and, for each frame in which the bone was not observed, times hidden_decay.
+// The gaps between neighbouring bones stay as they were.
+Prediction PredictPose(const Model& model, const PoseHistory& history,
+                       const MotionSettings& settings);
 
 }  // namespace vitruvia::realtime_scape

@@ -1,50 +1,51 @@
 // Settings of Realtime SCAPE (paper A, sec. 6).
 #pragma once
 
-#include <array>
-
 #include "config/settings.h"
 #include "geometry/mesh_rasterizer.h"
+#include "methods/realtime_scape/terms/energy_term.h"
+#include "search/nearest_neighbors.h"
 #include "solver/linear_solver.h"
 #include "tracking/classification.h"
+#include "tracking/placement.h"
+#include "tracking/relocalization_settings.h"
 
 namespace vitruvia::realtime_scape {
 
-// What a visible vertex near the captured surface (V1) is asked to do.
+// The residual of a visible vertex near the captured surface (V1).
 enum class SurfaceResidual {
-  kDepth,  // paper: only its depth is constrained, as if the captured depth did not change with the
-           // pixel
-  kPlane,  // ours: its distance from the captured point along the model's normal, which lets it
-           // slide
+  kDepth,  // paper: the difference in depth, as if the captured depth were the same at all pixels
+  kPlane,  // ours: the distance from the captured point along the model's normal, so that the
+           // vertex may slide
 };
 
-// What a pair of V2 or P2 is asked to do.
+// The residual of a pair of V2 or P2.
 enum class PairResidual {
-  kPoint,  // paper: to meet, in all three coordinates
-  kPlane,  // to meet along the vertex's normal: it may slide
+  kPoint,  // paper: the difference in all three coordinates
+  kPlane,  // the distance along the vertex's normal, so that the vertex may slide
 };
 
-// How a residual that does not fit loses influence.
+// How the influence of a large residual is reduced.
 enum class RobustKernel { kNone, kHuber, kTukey };
 
-// Which vertices a point that nothing explains (P2) may pull at.
+// Which vertices an unexplained point (P2) may be paired with.
 enum class PairCandidates {
   kVisible,  // paper: the visible ones
-  kReach,  // ours: those of bones that lack points, also unseen ones, which are looked for farther
-           // away the longer they were not seen
+  kReach,  // ours: those of bones that are not well explained, also unobserved ones, with a search
+           // radius that grows while they are not observed
 };
 
-// How a rotation takes its step.
+// How a rotation is updated by the solved increment r.
 enum class RotationUpdate {
-  kLinear,  // paper, to the letter: R ← (I + r̂) R, which is no rotation and grows without bound
-  kLinearOrthonormal,  // paper, read kindly: the rotation nearest to that
+  kLinear,  // paper, to the letter: R ← (I + r̂) R, which is not a rotation and grows without bound
+  kLinearOrthonormal,  // paper, intended reading: the rotation nearest to that
   kExponential,        // ours: R ← exp(r̂) R
 };
 
-// Where a frame starts, and what inertia holds on to.
+// The pose in which a frame starts, and the local rotations that inertia holds on to.
 enum class MotionModel {
   kConstantRotation,  // paper: the last frame's pose and local rotations
-  kConstantVelocity,  // ours: joints turn on as they did
+  kConstantVelocity,  // ours: joints keep their angular velocity
 };
 
 // What holds two neighbouring bones together.
@@ -89,7 +90,7 @@ struct FitSettings {
 struct SearchSettings {
   PairCandidates candidates = PairCandidates::kReach;
   double seen_share = 0.05;
-  double settled_share = 0.9;
+  double well_explained_share = 0.9;
   double owned_m = 0.04;
   double growth_m = 0.02;  // for each frame
   double reach_m = 0.4;
@@ -118,40 +119,19 @@ struct SolverSettings {
   void Describe(Fields& fields);
 };
 
-struct PlacementSettings {
-  int iterations = 30;
-  double trim = 0.2;
-  std::array<double, 3> wrong_by_m{};  // camera frame
-  double wrong_by_deg = 0.0;
-  void Describe(Fields& fields);
-};
-
-struct RecoverySettings {
-  int patience = 3;  // frames; 0: never
-  int pause = 5;     // frames
-  double below = 0.8;
-  double margin = 0.1;
-  int remembered = 8;
-  double apart_deg = 20.0;
-  int tried = 3;
-  void Describe(Fields& fields);
-};
-
 struct Settings {
   CloudSettings cloud;
   FitSettings fit;
   SearchSettings search;
   MotionSettings motion;
   JointRows joint_rows = JointRows::kJointPosition;
-  double joint_weight = 10.0;
-  double inertia_weight = 5.0;
-  double axis_weight = 1.0;
+  TermWeights weights;
   double length_unit_m = 0.05;
   RotationUpdate rotation_update = RotationUpdate::kExponential;
   StoppingSettings stopping;
   SolverSettings solver;
   PlacementSettings placement;
-  RecoverySettings recovery;
+  RelocalizationSettings recovery;
   double lost_below = 0.3;
   void Describe(Fields& fields);
 

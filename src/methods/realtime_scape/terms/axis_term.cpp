@@ -28,15 +28,13 @@ const std::array<MainAxis, 7>& MainAxes() {
 
 }  // namespace
 
-double AddAxisTerm(const BodyPose& pose, double weight, BlockNormalEquations& equations) {
-  const double energy_before = equations.energy();
+void AddAxisTerm(const BodyPose& pose, double weight, BlockNormalEquations& equations) {
   for (const auto& [bone_id, axis] : MainAxes()) {
     const int bone = static_cast<int>(bone_id);
     const int parent = Bones()[bone].parent;
     AddRotatedVectorRows(bone, pose[bone].rotation * axis, parent, pose[parent].rotation * axis,
                          weight, equations);
   }
-  return equations.energy() - energy_before;
 }
 
 }  // namespace vitruvia::realtime_scape

@@ -6,10 +6,10 @@
 
 namespace vitruvia::realtime_scape {
 
-// Adds α₃ Σ ‖R_j d_j − R_parent(j) d_j‖² over seven bones and returns the energy added.
+// Adds α₃ Σ ‖R_j d_j − R_parent(j) d_j‖² over seven bones.
 //
 // Reading: d_j is the joint's hinge axis in the rest pose. A turn about it leaves R_j d_j =
 // R_parent d_j and is free; a twist along the limb, the candy wrapper, is penalised.
-double AddAxisTerm(const BodyPose& pose, double weight, BlockNormalEquations& equations);
+void AddAxisTerm(const BodyPose& pose, double weight, BlockNormalEquations& equations);
 
 }  // namespace vitruvia::realtime_scape

@@ -5,12 +5,12 @@
 namespace vitruvia::realtime_scape {
 namespace {
 
-// A vertex as its bones hold it, and how it moves with them: for bone j of weight w by
-// w (r × arm_j + t), arm_j = R_j (v̄ − c̄_j) its place under that bone alone, seen from the bone's
-// centre.
-class MovingVertex {
+// A posed vertex and its derivative by the bones' increments: bone j with weight w moves it by
+// w (r × arm_j + t), where arm_j = R_j (v̄ − c̄_j) is the vertex under that bone alone, relative to
+// the bone's centre.
+class PosedVertex {
  public:
-  MovingVertex(const Model& model, const BodyPose& pose, int vertex)
+  PosedVertex(const Model& model, const BodyPose& pose, int vertex)
       : influences_(model.InfluencesOf(vertex)) {
     const Vector3d rest = model.rest_vertices[vertex].cast<double>();
     for (std::size_t k = 0; k < influences_.size(); ++k) {
@@ -41,8 +41,8 @@ class MovingVertex {
   Vector3d position_ = Vector3d::Zero();
 };
 
-// The vertex's normal as its bones have turned it.
-Vector3d TurnedNormal(const Model& model, const BodyPose& pose, int vertex) {
+// The vertex's normal, rotated by its bones and blended by their weights.
+Vector3d PosedNormal(const Model& model, const BodyPose& pose, int vertex) {
   const Vector3d rest = model.rest_normals[vertex].cast<double>();
   Vector3d normal = Vector3d::Zero();
   for (const auto& [bone, w] : model.InfluencesOf(vertex)) {
@@ -69,10 +69,10 @@ double RobustWeight(RobustKernel kernel, double residual_m, double scale_m) {
   return 1.0;
 }
 
-double AddFitTerm(const Model& model, const BodyPose& pose, const PinholeCamera& camera,
-                  const FitData& data, const FitSettings& settings, double length_unit_m,
-                  BlockNormalEquations& equations) {
-  const double energy_before = equations.energy();
+void AddFitTerm(const Model& model, const BodyPose& pose, const PinholeCamera& camera,
+                const VertexClasses& classes, const std::vector<Pair>& pairs,
+                const FitSettings& settings, double length_unit_m,
+                BlockNormalEquations& equations) {
   const double per_unit = 1.0 / length_unit_m;
   const auto robust = [&](double residual_m) {
     return RobustWeight(settings.kernel, residual_m, settings.kernel_scale_m);
@@ -80,10 +80,10 @@ double AddFitTerm(const Model& model, const BodyPose& pose, const PinholeCamera&
 
   const auto stride = static_cast<std::size_t>(settings.surface_stride);
   const double surface_weight = settings.surface_weight * settings.surface_stride;
-  for (std::size_t k = 0; k < data.classes.near_surface.size(); k += stride) {
-    const int index = data.classes.near_surface[k];
-    const MovingVertex vertex(model, pose, index);
-    const double observed_depth = data.classes.observed_depth[k];
+  for (std::size_t k = 0; k < classes.near_surface.size(); k += stride) {
+    const int index = classes.near_surface[k];
+    const PosedVertex vertex(model, pose, index);
+    const double observed_depth = classes.observed_depth[k];
     if (settings.surface_residual == SurfaceResidual::kDepth) {
       const double residual_m = vertex.position().z() - observed_depth;
       vertex.AddRow(Vector3d::UnitZ(), residual_m, surface_weight * robust(residual_m), per_unit,
@@ -91,16 +91,16 @@ double AddFitTerm(const Model& model, const BodyPose& pose, const PinholeCamera&
     } else {
       const auto pixel = camera.Project(vertex.position());
       const Vector3d observed = camera.Unproject(pixel.x(), pixel.y(), observed_depth);
-      const Vector3d normal = TurnedNormal(model, pose, index);
+      const Vector3d normal = PosedNormal(model, pose, index);
       const double residual_m = normal.dot(vertex.position() - observed);
       vertex.AddRow(normal, residual_m, surface_weight * robust(residual_m), per_unit, equations);
     }
   }
-  for (const Pair& pair : data.pairs) {
-    const MovingVertex vertex(model, pose, pair.vertex);
+  for (const Pair& pair : pairs) {
+    const PosedVertex vertex(model, pose, pair.vertex);
     const Vector3d offset = vertex.position() - pair.target.cast<double>();
     if (settings.pair_residual == PairResidual::kPlane) {
-      const Vector3d normal = TurnedNormal(model, pose, pair.vertex);
+      const Vector3d normal = PosedNormal(model, pose, pair.vertex);
       const double residual_m = normal.dot(offset);
       vertex.AddRow(normal, residual_m, settings.pair_weight * robust(residual_m), per_unit,
                     equations);
@@ -111,7 +111,6 @@ double AddFitTerm(const Model& model, const BodyPose& pose, const PinholeCamera&
       vertex.AddRow(Vector3d::Unit(axis), offset[axis], weight, per_unit, equations);
     }
   }
-  return equations.energy() - energy_before;
 }
 
 }  // namespace vitruvia::realtime_scape

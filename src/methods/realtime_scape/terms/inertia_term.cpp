@@ -4,18 +4,8 @@
 
 namespace vitruvia::realtime_scape {
 
-LocalRotations LocalRotationsOf(const BodyPose& pose) {
-  LocalRotations local;
-  for (int j = 0; j < kBoneCount; ++j) {
-    const int parent = Bones()[j].parent;
-    local[j] = parent < 0 ? pose[j].rotation : pose[parent].rotation.transpose() * pose[j].rotation;
-  }
-  return local;
-}
-
-double AddInertiaTerm(const BodyPose& pose, const LocalRotations& previous, double weight,
-                      BlockNormalEquations& equations) {
-  const double energy_before = equations.energy();
+void AddInertiaTerm(const BodyPose& pose, const LocalRotations& previous, double weight,
+                    BlockNormalEquations& equations) {
   for (int j = 0; j < kBoneCount; ++j) {
     const int parent = Bones()[j].parent;
     const Matrix3<double> predicted =
@@ -26,7 +16,6 @@ double AddInertiaTerm(const BodyPose& pose, const LocalRotations& previous, doub
                            equations);
     }
   }
-  return equations.energy() - energy_before;
 }
 
 }  // namespace vitruvia::realtime_scape

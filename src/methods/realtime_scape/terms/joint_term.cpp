@@ -56,9 +56,8 @@ JointTerm::JointTerm(const Model& model, JointRows rows) {
   }
 }
 
-double JointTerm::Add(const Model& model, const BodyPose& pose, double weight, double length_unit_m,
-                      BlockNormalEquations& equations) const {
-  const double energy_before = equations.energy();
+void JointTerm::Add(const Model& model, const BodyPose& pose, double weight, double length_unit_m,
+                    BlockNormalEquations& equations) const {
   const double per_unit = 1.0 / length_unit_m;
   for (const VirtualPoint& point : points_) {
     // R x + T h about the bone's centre c: R (x − h c̄) + h c.
@@ -78,7 +77,6 @@ double JointTerm::Add(const Model& model, const BodyPose& pose, double weight, d
       equations.AddRow(entries, per_unit * gap[axis], weight);
     }
   }
-  return equations.energy() - energy_before;
 }
 
 }  // namespace vitruvia::realtime_scape

@@ -15,22 +15,22 @@ namespace vitruvia::realtime_scape {
 // is a constant of the rest pose. Its eigenvectors are four virtual points (x, h) that carry
 // exactly the same energy, so the exact term costs four vertices instead of hundreds. The paper's
 // count of 3 rows a joint is the other reading: the vertices' weighted mean alone, which lets the
-// joint turn freely.
+// joint rotate freely.
 //
 // Readings: τ_jl = Σ_i w_ij w_il over vertices (the paper prints a sum over bones), so each joint's
 // weights sum to 1; each joint counts once; joints are the edges of the bone tree. An edge whose
 // bones share no vertex is held at its joint position.
 //
-// Departure (default): the joint's own position instead of its vertices' mean. The shared vertices
-// lie around a joint, not on it; a limb that swings by 70 degrees about its joint would have to
-// part from a mean that lies 3 cm off it by as much.
+// Departure (default): the joint's position in the skeleton instead of the mean of its vertices.
+// The mean may lie 3 cm off the joint; a limb that swings by 70 degrees about its joint then parts
+// from the mean by as much.
 class JointTerm {
  public:
   JointTerm(const Model& model, JointRows rows);
 
-  // Adds α₁ times the term, lengths in length units (see fit_term.h). Returns the energy added.
-  double Add(const Model& model, const BodyPose& pose, double weight, double length_unit_m,
-             BlockNormalEquations& equations) const;
+  // Adds α₁ times the term, lengths in units of length_unit_m.
+  void Add(const Model& model, const BodyPose& pose, double weight, double length_unit_m,
+           BlockNormalEquations& equations) const;
 
  private:
   struct VirtualPoint {

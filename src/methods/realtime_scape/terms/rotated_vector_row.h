@@ -1,7 +1,7 @@
 // ‖a − b‖² of two vectors that turn with a bone and with its parent.
 #pragma once
 
-#include "methods/realtime_scape/model.h"
+#include "methods/realtime_scape/body_pose.h"
 #include "solver/block_normal_equations.h"
 
 namespace vitruvia::realtime_scape {

@@ -1,0 +1,39 @@
+// The pose that Realtime SCAPE estimates.
+#pragma once
+
+#include <array>
+
+#include "body/skeleton.h"
+#include "geometry/mesh.h"
+
+namespace vitruvia::realtime_scape {
+
+// Each bone's rotation is about its own centre (the weighted mean of its vertices), not about the
+// subject's origin on the floor: the energy is the same, but the steps of a head's rotation do not
+// move it by metres, so that the stopping rule's thresholds compare like with like and the
+// equations are better conditioned.
+struct BonePose {
+  Matrix3<double> rotation = Matrix3<double>::Identity();  // camera_from_rest
+  Vector3<double> center = Vector3<double>::Zero();        // camera frame, metres
+};
+using BodyPose = std::array<BonePose, kBoneCount>;
+
+using LocalRotations = std::array<Matrix3<double>, kBoneCount>;  // parent_from_bone
+
+// The transpose of an orthonormal matrix, the inverse of any other: under a linear rotation update
+// bones have matrices that are not orthonormal.
+Matrix3<double> InverseOf(const Matrix3<double>& rotation);
+
+// R_parent⁻¹ R of every bone; the root's parent is the fixed identity.
+LocalRotations LocalRotationsOf(const BodyPose& pose);
+
+// Mean angle between the local rotations of two poses, radians.
+double MeanJointAngle(const BodyPose& a, const BodyPose& b);
+
+// The whole body moved by `shift` (camera frame, metres).
+BodyPose Translated(BodyPose pose, const Vector3d& shift);
+
+// The whole body rotated about its root's centre.
+BodyPose RotatedAboutRoot(BodyPose pose, const Matrix3<double>& rotation);
+
+}  // namespace vitruvia::realtime_scape

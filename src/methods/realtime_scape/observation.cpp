@@ -1,0 +1,19 @@
+#include "methods/realtime_scape/observation.h"
+
+namespace vitruvia::realtime_scape {
+
+Observer::Observer(const PinholeCamera& camera, const Settings& settings)
+    : camera_(camera), settings_(settings.cloud) {
+  observation_.near_cloud =
+      MakeNearestNeighbors(settings.fit.association, camera, settings.fit.window_px);
+}
+
+const Observation& Observer::Observe(const DepthImage& depth) {
+  observation_.depth = &depth;
+  CloudFromDepth(depth, camera_, settings_.stride, static_cast<float>(settings_.max_depth_m),
+                 observation_.cloud);
+  if (!observation_.cloud.points.empty()) observation_.near_cloud->Build(observation_.cloud.points);
+  return observation_;
+}
+
+}  // namespace vitruvia::realtime_scape

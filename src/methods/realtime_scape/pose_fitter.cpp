@@ -1,0 +1,168 @@
+#include "methods/realtime_scape/pose_fitter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/angles.h"
+#include "tracking/visibility.h"
+
+namespace vitruvia::realtime_scape {
+
+using Step = RealtimeScapeStep;
+
+PoseFitter::PoseFitter(const Model& model, const PinholeCamera& camera, const Settings& settings)
+    : model_(model),
+      camera_(camera),
+      settings_(settings),
+      joint_term_(model, settings.joint_rows),
+      rasterizer_(MakeRasterizer(settings.fit.rasterizer, camera)),
+      correspondence_finder_(model, camera, settings),
+      solver_(MakeLinearSolver(settings.solver.linear)),
+      equations_(kBoneCount),
+      equations_after_(kBoneCount) {}
+
+FitSummary PoseFitter::Fit(const Observation& observation, const PoseHistory& history,
+                           const Prediction& prediction, int max_iterations) {
+  FitSummary fit;
+  fit.pose = prediction.pose;
+  fit.energy_rise = settings_.solver.watch_energy ? 0.0 : -1.0;
+  clock_.Restart();
+  Pose(fit.pose);
+  for (; fit.iterations < max_iterations && !fit.converged && fit.solved; ++fit.iterations) {
+    const bool is_view_new = fit.iterations < settings_.fit.visibility_iterations;
+    const RenderedView& view = is_view_new ? Render(surface_) : view_;
+    const Classification& classification = Classify(observation, surface_, view);
+    const std::vector<Pair>& pairs =
+        Correspond(observation, surface_, view, classification, history.visibility);
+    const auto input_at = [&](const BodyPose& pose) {
+      return TermInput{model_,
+                       camera_,
+                       settings_,
+                       joint_term_,
+                       pose,
+                       prediction.local_rotations,
+                       classification.classes,
+                       pairs};
+    };
+    fit.energies = Assemble(input_at(fit.pose));
+    const Solution solution = Solve(equations_);
+    const PoseStep step = ApplyIncrement(fit.pose, solution.increment, settings_.length_unit_m,
+                                         settings_.rotation_update);
+    fit.solved = solution.status != SolveStatus::kNotPositiveDefinite && !HasDiverged(step.pose);
+    fit.pose = fit.solved ? step.pose : history.last;
+    fit.inexact_steps += solution.status == SolveStatus::kInexact ? 1 : 0;
+    fit.converged = fit.solved && IsSmall(step);
+    Pose(fit.pose);
+    if (settings_.solver.watch_energy && fit.solved)
+      fit.energy_rise = std::max(fit.energy_rise, EnergyRise(equations_, input_at(fit.pose)));
+  }
+  fit.surface = surface_;
+  fit.agreement =
+      MeasureAgreement(observation.cloud.points.size(), classification_.unexplained.size(),
+                       view_.visible.size(), classification_.classes);
+  fit.counts = classification_.counts;
+  if (std::isfinite(equations_.energy())) fit.condition = solver_->EstimateCondition();
+  fit.times = clock_.times();
+  return fit;
+}
+
+PoseCheck PoseFitter::Compare(const Observation& observation, const BodyPose& pose) {
+  const PosedSurface& surface = Pose(pose);
+  const RenderedView& view = Render(surface);
+  const Classification& classification = Classify(observation, surface, view);
+  return {MeasureAgreement(observation.cloud.points.size(), classification.unexplained.size(),
+                           view.visible.size(), classification.classes),
+          classification.counts};
+}
+
+Vector3d PoseFitter::VisibleCentroid(const BodyPose& pose) {
+  const PosedSurface& surface = Pose(pose);
+  const RenderedView& view = Render(surface);
+  if (view.visible.empty()) return pose.front().center;
+  Vector3d sum = Vector3d::Zero();
+  for (const int v : view.visible) sum += surface.vertices[v].cast<double>();
+  return sum / static_cast<double>(view.visible.size());
+}
+
+// The end of line 11, and what precedes line 5.
+const PosedSurface& PoseFitter::Pose(const BodyPose& pose) {
+  PoseSurface(model_, pose, surface_);
+  clock_.Lap(Step::kUpdate);
+  return surface_;
+}
+
+// Line 5.
+const RenderedView& PoseFitter::Render(const PosedSurface& surface) {
+  view_.depth = &rasterizer_->Render(surface.vertices, model_.triangles);
+  FindVisibleVertices(surface.vertices, *view_.depth, camera_,
+                      static_cast<float>(settings_.fit.visible_within_m), view_.visible);
+  clock_.Lap(Step::kRender);
+  return view_;
+}
+
+// Line 7.
+const Classification& PoseFitter::Classify(const Observation& observation,
+                                           const PosedSurface& surface, const RenderedView& view) {
+  const NearnessSettings nearness{static_cast<float>(settings_.fit.near_surface_m),
+                                  settings_.fit.edge_px, static_cast<float>(settings_.fit.smooth_m),
+                                  settings_.fit.behind_surface};
+  ClassifyVertices(surface.vertices, view.visible, *observation.depth, camera_, nearness,
+                   classification_.classes);
+  FindUnexplainedPoints(observation.cloud, *view.depth, nearness, classification_.unexplained);
+  classification_.counts = CountByBone(model_, view.visible, classification_.classes);
+  clock_.Lap(Step::kClassify);
+  return classification_;
+}
+
+// Lines 6 and 8.
+const std::vector<Pair>& PoseFitter::Correspond(const Observation& observation,
+                                                const PosedSurface& surface,
+                                                const RenderedView& view,
+                                                const Classification& classification,
+                                                const BoneVisibility& visibility) {
+  const CorrespondenceFinder::SearchSets& sets = correspondence_finder_.BuildSearchSets(
+      observation, surface, view, classification, visibility);
+  clock_.Lap(Step::kModelTree);
+  const std::vector<Pair>& pairs =
+      correspondence_finder_.FindPairs(observation, surface, classification, sets, visibility);
+  clock_.Lap(Step::kCorrespond);
+  return pairs;
+}
+
+// Line 9.
+Energies PoseFitter::Assemble(const TermInput& input) {
+  equations_.Reset();
+  const Energies energies = AddEnergyTerms(input, equations_);
+  equations_.AddDamping(settings_.solver.damping);
+  equations_.Symmetrize();
+  clock_.Lap(Step::kAssemble);
+  return energies;
+}
+
+// Line 10.
+PoseFitter::Solution PoseFitter::Solve(const BlockNormalEquations& equations) {
+  SolveStatus status = SolveStatus::kNotPositiveDefinite;
+  if (std::isfinite(equations.energy())) {
+    status = solver_->Solve(equations.hessian(), -equations.gradient(), increment_);
+  } else {
+    increment_.setZero(equations.size());
+  }
+  clock_.Lap(Step::kSolve);
+  return {increment_, status};
+}
+
+// By what share of itself a step raised the energy, its correspondences kept.
+double PoseFitter::EnergyRise(const BlockNormalEquations& before, const TermInput& after) {
+  equations_after_.Reset();
+  AddEnergyTerms(after, equations_after_);
+  clock_.Skip();  // no step of the algorithm
+  return before.energy() > 0.0 ? equations_after_.energy() / before.energy() - 1.0 : 0.0;
+}
+
+// Line 12.
+bool PoseFitter::IsSmall(const PoseStep& step) const {
+  return step.largest_rotation_rad < settings_.stopping.rotation_step_deg * kRadiansPerDegree &&
+         step.largest_translation_m < settings_.stopping.translation_step_m;
+}
+
+}  // namespace vitruvia::realtime_scape

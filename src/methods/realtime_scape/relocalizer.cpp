@@ -1,0 +1,87 @@
+#include "methods/realtime_scape/relocalizer.h"
+
+#include <numeric>
+
+#include "math/angles.h"
+#include "tracking/loss_detector.h"
+#include "tracking/pose_search.h"
+
+namespace vitruvia::realtime_scape {
+namespace {
+
+Vector3d Centroid(const std::vector<Vector3f>& points) {
+  const auto add = [](const Vector3d& sum, const Vector3f& p) -> Vector3d {
+    return sum + p.cast<double>();
+  };
+  return std::accumulate(points.begin(), points.end(), Vector3d(Vector3d::Zero()), add) /
+         static_cast<double>(points.size());
+}
+
+}  // namespace
+
+// Tests hypotheses against one frame (see tracking/pose_search.h).
+class Relocalizer::Tester {
+ public:
+  Tester(PoseFitter& fitter, const Observation& observation, int max_iterations)
+      : fitter_(fitter), observation_(observation), max_iterations_(max_iterations) {}
+
+  Agreement Compare(const BodyPose& pose) { return fitter_.Compare(observation_, pose).agreement; }
+
+  FitSummary Refine(const BodyPose& pose) {
+    FitSummary fit =
+        fitter_.Fit(observation_, AtRest(pose), {pose, LocalRotationsOf(pose)}, max_iterations_);
+    const PoseCheck reached = fitter_.Compare(observation_, fit.pose);
+    fit.agreement = reached.agreement;
+    fit.counts = reached.counts;
+    return fit;
+  }
+
+ private:
+  PoseFitter& fitter_;
+  const Observation& observation_;
+  int max_iterations_;
+};
+
+Relocalizer::Relocalizer(const Model& model, const PinholeCamera& camera, const Settings& settings)
+    : settings_(settings),
+      fitter_(model, camera, settings),
+      memory_(settings.recovery.num_remembered,
+              settings.recovery.min_pose_distance_deg * kRadiansPerDegree, MeanJointAngle) {}
+
+std::optional<FitSummary> Relocalizer::Search(const Observation& observation,
+                                              const FitSummary& current) {
+  Tester tester(fitter_, observation, settings_.stopping.first_frame_iterations);
+  FitSummary best = FindBestPose(Hypotheses(observation.cloud, current.pose),
+                                 settings_.recovery.num_refined, tester);
+  if (!IsClearlyBetter(best.agreement, current.agreement, settings_.recovery.margin)) return {};
+  return best;
+}
+
+// Moves the pose so that the centroid of its visible vertices lies on the cloud's.
+BodyPose Relocalizer::AlignCentroidToCloud(const PointCloud& cloud, BodyPose pose) {
+  constexpr int kRounds = 2;  // moving the body changes what is visible of it
+  const Vector3d observed = Centroid(cloud.points);
+  for (int round = 0; round < kRounds; ++round) {
+    pose = Translated(pose, observed - fitter_.VisibleCentroid(pose));
+  }
+  return pose;
+}
+
+std::vector<BodyPose> Relocalizer::Hypotheses(const PointCloud& cloud, const BodyPose& current) {
+  constexpr std::array kOffsets_m = {0.0, -0.3, 0.3};  // part of the body may be out of the image
+  std::vector<BodyPose> seeds = memory_.poses();
+  seeds.push_back(current);
+  const std::vector<Matrix3<double>> rotations = HypothesisRotations();
+  std::vector<BodyPose> hypotheses;
+  for (const BodyPose& seed : seeds) {
+    for (const Matrix3<double>& rotation : rotations) {
+      const BodyPose aligned = AlignCentroidToCloud(cloud, RotatedAboutRoot(seed, rotation));
+      for (const double offset_m : kOffsets_m) {
+        hypotheses.push_back(Translated(aligned, {offset_m, 0.0, 0.0}));
+      }
+    }
+  }
+  return hypotheses;
+}
+
+}  // namespace vitruvia::realtime_scape

@@ -1,0 +1,36 @@
+// Finds a lost subject again: searches other poses and places for one frame.
+#pragma once
+
+#include <optional>
+
+#include "methods/realtime_scape/pose_fitter.h"
+#include "tracking/pose_memory.h"
+
+namespace vitruvia::realtime_scape {
+
+class Relocalizer {
+ public:
+  // `model` must outlive the relocaliser. It has a fitter, and with it buffers and a clock, of its
+  // own: a search changes nothing that the tracker reports of the frame.
+  Relocalizer(const Model& model, const PinholeCamera& camera, const Settings& settings);
+
+  void Remember(const BodyPose& pose) { memory_.Remember(pose); }
+
+  // Hypotheses are the remembered poses and the current one, each rotated to all sides, aligned
+  // with the cloud, and beside that place. The best are refined; the best of those is returned if
+  // it agrees with the frame clearly better than the current pose. Its agreement and counts are of
+  // the pose returned.
+  std::optional<FitSummary> Search(const Observation& observation, const FitSummary& current);
+
+ private:
+  class Tester;
+
+  BodyPose AlignCentroidToCloud(const PointCloud& cloud, BodyPose pose);
+  std::vector<BodyPose> Hypotheses(const PointCloud& cloud, const BodyPose& current);
+
+  Settings settings_;
+  PoseFitter fitter_;
+  PoseMemory<BodyPose> memory_;
+};
+
+}  // namespace vitruvia::realtime_scape

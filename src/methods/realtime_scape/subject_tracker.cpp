@@ -1,0 +1,122 @@
+#include "methods/realtime_scape/subject_tracker.h"
+
+#include "core/error.h"
+#include "tracking/placement.h"
+
+namespace vitruvia::realtime_scape {
+
+using Step = RealtimeScapeStep;
+
+SubjectTracker::SubjectTracker(const Subject& subject, const PinholeCamera& camera,
+                               const Settings& settings)
+    : camera_(camera),
+      settings_(settings),
+      model_(subject),
+      observer_(camera, settings),
+      fitter_(model_, camera, settings),
+      relocalizer_(model_, camera, settings),
+      loss_detector_(settings.recovery) {}
+
+TrackResult SubjectTracker::TrackFrame(const DepthFrame& frame) {
+  CheckFrameSize(frame, camera_);
+  clock_.Restart();
+  const Observation& observation = observer_.Observe(frame.depth);
+  if (observation.cloud.points.empty()) return CarryOver();
+
+  const bool is_first = !history_;
+  if (is_first) history_ = Place(observation.cloud);
+  const Prediction prediction = PredictPose(model_, *history_, settings_.motion);
+  clock_.Lap(Step::kCloudTree);
+
+  const StoppingSettings& stopping = settings_.stopping;
+  FitSummary fit =
+      fitter_.Fit(observation, *history_, prediction,
+                  is_first ? stopping.first_frame_iterations : stopping.max_iterations);
+  clock_.Skip();
+  fit = TakeBetterPose(observation, std::move(fit), is_first);
+  history_ = Advanced(*history_, model_, fit.pose, fit.counts, settings_.search.seen_share);
+  fit.times += clock_.times();
+  Ending ending = EndingOf(fit);
+  return Result(std::move(fit), std::move(ending));
+}
+
+PoseHistory SubjectTracker::Place(const PointCloud& cloud) const {
+  const std::unique_ptr<MeshRasterizer> rasterizer =
+      MakeRasterizer(settings_.fit.rasterizer, camera_);
+  const Rigidd camera_from_subject =
+      PlaceRestPose({model_.rest_vertices, model_.triangles}, cloud, camera_,
+                    settings_.fit.visible_within_m, settings_.placement, *rasterizer);
+  return AtRest(RestPose(model_, camera_from_subject));
+}
+
+// Searches other poses when agreement has been low for long enough. What a search finds replaces
+// the fit, but for its times: all that a search takes is one step of the frame.
+FitSummary SubjectTracker::TakeBetterPose(const Observation& observation, FitSummary fit,
+                                          bool is_first) {
+  const FrameVerdict verdict = loss_detector_.Assess(fit.agreement);
+  if (is_first || verdict == FrameVerdict::kAgrees) relocalizer_.Remember(fit.pose);
+  if (verdict != FrameVerdict::kSearch) return fit;
+
+  std::optional<FitSummary> found = relocalizer_.Search(observation, fit);
+  clock_.Lap(Step::kRelocalize);
+  if (!found) return fit;
+  loss_detector_.NoteFound(found->agreement);
+  history_ = AtRest(found->pose);
+  found->times = fit.times;
+  return *std::move(found);
+}
+
+// A frame without measurements: the pose stays; before the first one with any it is the rest pose
+// at the camera.
+TrackResult SubjectTracker::CarryOver() {
+  loss_detector_.NoteEmptyFrame();
+  FitSummary fit;
+  if (history_) {
+    PoseSurface(model_, history_->last, fit.surface);
+  } else {
+    fit.surface = {model_.rest_vertices, BoneTransforms(kBoneCount)};
+  }
+  fit.energy_rise = settings_.solver.watch_energy ? 0.0 : -1.0;
+  return Result(std::move(fit),
+                {Outcome::kNoData, "the frame holds no measurement; the pose is carried over"});
+}
+
+SubjectTracker::Ending SubjectTracker::EndingOf(const FitSummary& fit) const {
+  const double presence = fit.agreement.presence();
+  if (presence < settings_.lost_below || loss_detector_.is_lost()) {
+    return {Outcome::kLost,
+            fmt::format("the frame confirms {:.0f} % of the model, usually {:.0f} %",
+                        100.0 * presence, 100.0 * loss_detector_.usual().presence())};
+  }
+  if (!fit.solved) {
+    return {Outcome::kLost,
+            "the normal equations have no solution, or the step diverges; the pose is carried "
+            "over"};
+  }
+  if (fit.converged) return {Outcome::kConverged, ""};
+  std::string message = fmt::format("still moving after {} iterations", fit.iterations);
+  if (fit.inexact_steps > 0) {
+    message += fmt::format("; conjugate gradients missed their tolerance in {} of them",
+                           fit.inexact_steps);
+  }
+  return {Outcome::kIterationLimit, message};
+}
+
+TrackResult SubjectTracker::Result(FitSummary fit, Ending ending) const {
+  TrackResult result;
+  result.outcome = ending.outcome;
+  result.message = std::move(ending.message);
+  result.vertices = std::move(fit.surface.vertices);
+  result.camera_from_rest = std::move(fit.surface.camera_from_rest);
+  result.joints = PosedJoints(model_.skeleton, result.camera_from_rest);
+  result.iterations = fit.iterations;
+  for (std::size_t k = 0; k < kEnergyTermCount; ++k) {
+    result.energies.push_back({Name(static_cast<EnergyTerm>(k)), fit.energies[k]});
+  }
+  result.step_ms = fit.times.Named();
+  result.energy_rise = fit.energy_rise;
+  result.condition = fit.condition;
+  return result;
+}
+
+}  // namespace vitruvia::realtime_scape

@@ -1,0 +1,43 @@
+// Tracks one subject before one camera by algorithm 1 of paper A.
+#pragma once
+
+#include <optional>
+
+#include "methods/realtime_scape/relocalizer.h"
+#include "tracking/frame_checks.h"
+#include "tracking/loss_detector.h"
+
+namespace vitruvia::realtime_scape {
+
+class SubjectTracker {
+ public:
+  SubjectTracker(const Subject& subject, const PinholeCamera& camera, const Settings& settings);
+  SubjectTracker(const SubjectTracker&) = delete;  // its parts refer to its model
+  SubjectTracker& operator=(const SubjectTracker&) = delete;
+
+  TrackResult TrackFrame(const DepthFrame& frame);
+
+ private:
+  struct Ending {
+    Outcome outcome;
+    std::string message;
+  };
+
+  PoseHistory Place(const PointCloud& cloud) const;
+  FitSummary TakeBetterPose(const Observation& observation, FitSummary fit, bool is_first);
+  TrackResult CarryOver();
+  Ending EndingOf(const FitSummary& fit) const;
+  TrackResult Result(FitSummary fit, Ending ending) const;
+
+  PinholeCamera camera_;
+  Settings settings_;
+  Model model_;
+  Observer observer_;
+  PoseFitter fitter_;
+  Relocalizer relocalizer_;
+  LossDetector loss_detector_;
+  StepClock<RealtimeScapeStep> clock_;
+  std::optional<PoseHistory> history_;  // from the first frame with measurements on
+};
+
+}  // namespace vitruvia::realtime_scape

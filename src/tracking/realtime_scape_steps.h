@@ -1,0 +1,47 @@
+// The timed steps of paper A's algorithm 1. The tracker times them, and the tables set the times of
+// paper A's table 1 beside them: both by these identifiers, so that a name stands only here.
+#pragma once
+
+namespace vitruvia {
+
+enum class RealtimeScapeStep {
+  kCloudTree,
+  kRender,
+  kModelTree,
+  kClassify,
+  kCorrespond,
+  kAssemble,
+  kSolve,
+  kUpdate,
+  kRelocalize,  // not in the paper
+  kCount
+};
+
+// With the line's number in algorithm 1.
+constexpr const char* Name(RealtimeScapeStep step) {
+  switch (step) {
+    case RealtimeScapeStep::kCloudTree:
+      return "2 kd-tree of P";
+    case RealtimeScapeStep::kRender:
+      return "5 render";
+    case RealtimeScapeStep::kModelTree:
+      return "6 kd-tree of V";
+    case RealtimeScapeStep::kClassify:
+      return "7 classify";
+    case RealtimeScapeStep::kCorrespond:
+      return "8 correspond";
+    case RealtimeScapeStep::kAssemble:
+      return "9 assemble";
+    case RealtimeScapeStep::kSolve:
+      return "10 solve";
+    case RealtimeScapeStep::kUpdate:
+      return "11 update";
+    case RealtimeScapeStep::kRelocalize:
+      return "recover";
+    case RealtimeScapeStep::kCount:
+      break;
+  }
+  return "";
+}
+
+}  // namespace vitruvia

@@ -1,0 +1,60 @@
+// Times the steps of a frame.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/timer.h"
+#include "tracking/tracker.h"
+
+namespace vitruvia {
+
+// Milliseconds of each step. Step is an enum class whose last enumerator is kCount; `Name(Step)`
+// says what a step is called in results.
+template <class Step>
+class StepTimes {
+ public:
+  double& operator[](Step step) { return ms_[static_cast<std::size_t>(step)]; }
+  double operator[](Step step) const { return ms_[static_cast<std::size_t>(step)]; }
+  StepTimes& operator+=(const StepTimes& other) {
+    for (std::size_t k = 0; k < kCount; ++k) ms_[k] += other.ms_[k];
+    return *this;
+  }
+  // In the order of the enum.
+  std::vector<NamedValue> Named() const {
+    std::vector<NamedValue> values;
+    for (std::size_t k = 0; k < kCount; ++k) {
+      values.push_back({Name(static_cast<Step>(k)), ms_[k]});
+    }
+    return values;
+  }
+
+ private:
+  static constexpr auto kCount = static_cast<std::size_t>(Step::kCount);
+  std::array<double, kCount> ms_{};
+};
+
+// A stopwatch that books laps under steps. `Watch` has a member `double LapMs()`.
+template <class Step, class Watch = Stopwatch>
+class StepClock {
+ public:
+  explicit StepClock(Watch watch = {}) : watch_(watch) {}
+
+  // All times to zero; the first lap begins.
+  void Restart() {
+    times_ = {};
+    watch_.LapMs();
+  }
+  // Adds the time since the end of the last lap to this step's.
+  void Lap(Step step) { times_[step] += watch_.LapMs(); }
+  // Ends a lap that no step is charged for.
+  void Skip() { watch_.LapMs(); }
+
+  const StepTimes<Step>& times() const { return times_; }
+
+ private:
+  StepTimes<Step> times_;
+  Watch watch_;
+};
+
+}  // namespace vitruvia

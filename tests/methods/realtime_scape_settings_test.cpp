@@ -1,0 +1,206 @@
+// Every setting of Realtime SCAPE does something, and the paper's preset leaves nothing to defaults
+// that are not the paper's.
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "config/settings_schema.h"
+#include "methods/realtime_scape/realtime_scape.h"
+#include "methods/registry.h"
+#include "support/arm_stage.h"
+
+namespace vitruvia::realtime_scape {
+namespace {
+
+Json At(const std::string& dotted_key, const Json& value) {
+  Json json;
+  std::string pointer = "/" + dotted_key;
+  std::replace(pointer.begin(), pointer.end(), '.', '/');
+  json[Json::json_pointer(pointer)] = value;
+  return json;
+}
+
+std::vector<FieldDescription> Leaves() {
+  std::vector<FieldDescription> leaves;
+  for (const FieldDescription& field : DescribeSettings("", VisitDefaults<Settings>)) {
+    if (field.type != "section") leaves.push_back(field);
+  }
+  return leaves;
+}
+
+// All that a tracker says of a few frames, but for its times.
+struct Trace {
+  std::vector<TrackResult> results;
+
+  bool operator==(const Trace& other) const {
+    return std::equal(results.begin(), results.end(), other.results.begin(), other.results.end(),
+                      [](const TrackResult& a, const TrackResult& b) {
+                        return a.vertices == b.vertices && a.outcome == b.outcome &&
+                               a.iterations == b.iterations && a.energy_rise == b.energy_rise;
+                      });
+  }
+};
+
+Trace Track(const Json& changes, const std::function<std::vector<DepthFrame>()>& frames) {
+  static const ArmStage stage(1, SkinLinear, {Vector3d(1, -1, -1).asDiagonal(), {0.05, 0.9, 2.8}});
+  RealtimeScape tracker{ReadSettings<Settings>(changes, {"test", ""})};
+  tracker.Start(stage.body, stage.camera);
+  Trace trace;
+  for (const DepthFrame& frame : frames()) trace.results.push_back(tracker.TrackFrame(frame));
+  return trace;
+}
+
+const Rigidd kFront{Vector3d(1, -1, -1).asDiagonal(), {0.05, 0.9, 2.8}};
+
+// An arm swings down; a part of it leaves the image's measured part and comes back.
+const std::vector<DepthFrame>& MovingArm() {
+  static const std::vector<DepthFrame> frames = [] {
+    ArmStage stage(1, SkinLinear, kFront);
+    std::vector<DepthFrame> list;
+    for (int i = 0; i < 8; ++i) {
+      list.push_back(stage.Frame(i, 0.1 * i));
+      if (i < 3 || i > 5) continue;
+      for (int v = 0; v < list.back().depth.height(); ++v) {
+        for (int u = 215; u < list.back().depth.width(); ++u) list.back().depth(u, v) = 0.0f;
+      }
+    }
+    return list;
+  }();
+  return frames;
+}
+
+// A body that tries several poses, vanishes and comes back elsewhere, turned by 100 degrees.
+const std::vector<DepthFrame>& ReturningBody() {
+  static const std::vector<DepthFrame> frames = [] {
+    const Rigidd after = Rigidd{Matrix3<double>::Identity(), {0.5, 0.0, 0.4}} * kFront *
+                         Rigidd{ExpSo3<double>({0.0, 1.75, 0.0}), Vector3d::Zero()};
+    ArmStage first(1, SkinLinear, kFront), second(1, SkinLinear, after);
+    std::vector<DepthFrame> list;
+    for (int i = 0; i < 8; ++i) list.push_back(first.Frame(i, 0.15 * i));
+    for (int i = 8; i < 14; ++i) list.push_back(second.Frame(i, 1.05));
+    return list;
+  }();
+  return frames;
+}
+
+struct Change {
+  Json value;              // instead of the default
+  Json context = Json{};   // other settings, with the change and without
+  bool returning = false;  // on frames in which the body is lost
+};
+
+// One change for each setting. It has to change the result.
+const std::map<std::string, Change>& Changes() {
+  const Json cg = At("solver.kind", "cg");
+  static const std::map<std::string, Change> changes = {
+      {"cloud.stride", {3}},
+      {"cloud.max_depth_m", {2.8}},
+      {"fit.surface_residual", {"depth"}},
+      {"fit.pair_residual", {"plane"}},
+      {"fit.visibility_iterations", {1}},
+      {"fit.visible_within_m", {0.01}},
+      {"fit.near_surface_m", {0.02}},
+      {"fit.edge_px", {0}},
+      {"fit.behind_surface", {"elsewhere"}},
+      {"fit.smooth_m", {0.0}},
+      {"fit.association", {"kd_tree"}},
+      {"fit.window_px", {1, At("fit.association", "window")}},
+      {"fit.pair_cutoff_m", {0.02}},
+      {"fit.surface_weight", {0.5}},
+      {"fit.pair_weight", {0.5}},
+      {"fit.surface_stride", {2}},
+      {"fit.kernel", {"tukey"}},
+      {"fit.kernel_scale_m", {0.002}},
+      {"search.candidates", {"visible"}},
+      {"search.seen_share", {0.3}},
+      {"search.well_explained_share", {0.3}},
+      {"search.owned_m", {0.0}},
+      {"search.growth_m", {0.0}},
+      {"search.reach_m", {0.0}},
+      {"motion.model", {"constant_rotation"}},
+      {"motion.velocity_share", {0.3}},
+      {"motion.hidden_decay", {0.1}},
+      {"joint_rows", {"mean_point"}},
+      {"joint_weight", {1.0}},
+      {"inertia_weight", {1.0}},
+      {"axis_weight", {10.0}},
+      {"length_unit_m", {0.1}},
+      {"rotation_update", {"linear_orthonormal"}},
+      {"stopping.rotation_step_deg", {0.01}},
+      {"stopping.translation_step_m", {1e-5}},
+      {"stopping.max_iterations", {1}},
+      {"stopping.first_frame_iterations", {1}},
+      {"solver.kind", {"cg"}},
+      {"solver.relative_tolerance", {0.1, cg}},
+      {"solver.max_iterations", {5, cg}},
+      {"solver.precision", {"float"}},
+      {"solver.damping", {10.0}},
+      {"solver.watch_energy", {true}},
+      {"placement.iterations", {0}},
+      {"placement.trim", {0.5}},
+      {"placement.initial_offset_m", {{0.1, 0.0, 0.0}}},
+      {"placement.initial_rotation_deg", {20.0}},
+      {"recovery.patience", {1, {}, true}},
+      {"recovery.pause", {1, At("recovery.margin", 1.0), true}},
+      {"recovery.agreement_threshold", {0.1, {}, true}},
+      {"recovery.margin", {1.0, {}, true}},
+      {"recovery.num_remembered", {1, {}, true}},
+      {"recovery.min_pose_distance_deg", {180.0, {}, true}},
+      {"recovery.num_refined", {1, {}, true}},
+      {"lost_below", {1.0}},
+  };
+  return changes;
+}
+
+// Settings that must not change the result, with the reason.
+const std::map<std::string, std::string>& WithoutEffect() {
+  static const std::map<std::string, std::string> reasons = {
+      {"fit.rasterizer", "both render the same depth of a closed mesh"}};
+  return reasons;
+}
+
+TEST(RealtimeScapeSettings, EverySettingChangesTheResultOrSaysWhyNot) {
+  for (const FieldDescription& field : Leaves()) {
+    SCOPED_TRACE(field.key);
+    if (WithoutEffect().contains(field.key)) continue;
+    const auto found = Changes().find(field.key);
+    if (found == Changes().end()) {
+      ADD_FAILURE() << "a setting without a change that shows what it does";
+      continue;
+    }
+    const Change& change = found->second;
+    const auto frames = change.returning ? ReturningBody : MovingArm;
+    const Json context = change.context.is_null() ? Json::object() : change.context;
+    EXPECT_FALSE(Track(context, frames) ==
+                 Track(Merged(context, At(field.key, change.value)), frames));
+  }
+}
+
+TEST(RealtimeScapeSettings, WhatMustNotChangeTheResultDoesNot) {
+  EXPECT_TRUE(Track(Json::object(), MovingArm) ==
+              Track(At("fit.rasterizer", "all_triangles"), MovingArm));
+}
+
+// The preset of the paper would otherwise change with a default of ours. Inputs, which are off by
+// default, are the user's.
+TEST(RealtimeScapeSettings, ThePapersPresetNamesEveryDefaultThatIsNotThePapers) {
+  const auto file =
+      std::filesystem::path(VITRUVIA_SOURCE_DIR) / "configs/methods/realtime_scape_paper.json";
+  const Json preset = ReadJsonFile(file).at("settings");
+  const Json resolved = WriteSettings(ReadSettings<Settings>(preset, {file, "settings"}));
+  for (const FieldDescription& field : Leaves()) {
+    if (field.origin == "paper" || field.origin == "input") continue;
+    std::string pointer = "/" + field.key;
+    std::replace(pointer.begin(), pointer.end(), '.', '/');
+    const Json::json_pointer key(pointer);
+    if (!resolved.contains(key)) continue;  // depends on another choice than the preset's
+    EXPECT_TRUE(preset.contains(key))
+        << field.key << " (" << field.origin << ", default " << field.default_value << ")";
+  }
+}
+
+}  // namespace
+}  // namespace vitruvia::realtime_scape
