@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "analysis/experiment_runs.h"
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -22,18 +23,20 @@
 #include "experiments/cli/index_command.h"
 #include "experiments/cli/learn_command.h"
 #include "experiments/cli/learn_shape_command.h"
+#include "experiments/cli/problems.h"
 #include "experiments/cli/regress_command.h"
 #include "experiments/cli/rescore_command.h"
 #include "experiments/cli/run_command.h"
+#include "experiments/cli/run_one_command.h"
 #include "experiments/cli/scan_command.h"
 #include "experiments/cli/schema_command.h"
 #include "experiments/cli/status_command.h"
 #include "experiments/cli/submit_command.h"
 #include "experiments/cli/sufficient_command.h"
-#include "experiments/plan/experiment_config.h"
-#include "experiments/run/tracking_runs.h"
+#include "experiments/cli/track_command.h"
+#include "experiments/plan/run_plan.h"
 #include "reports/pages/report.h"
-#include "scoring/score.h"
+#include "sequence/sequence.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -42,7 +45,8 @@ namespace {
 constexpr const char* kExitCodes =
     "Exit codes: 0 success, 1 internal error, 2 bad configuration or arguments, 3 bad data, "
     "4 failed run or output not writable, 5 accuracy regressed, 6 speed regressed, 7 nothing "
-    "measured, 130 interrupted.";
+    "measured, 8 too many failed frames, 9 processor without the needed instructions, "
+    "130 interrupted.";
 
 std::string VersionText() {
   const BuildInfo& build = GetBuildInfo();
@@ -81,21 +85,15 @@ void Verify(const fs::path& folder) {
   fmt::print("{}: complete and consistent\n", folder.string());
 }
 
+void Report(const fs::path& folder) {
+  PrintProblems(ReadExperiment(folder));
+  fmt::print("report: {}\n", WriteReport(folder).string());
+}
+
 struct Arguments {
-  fs::path scene, method, sequence, subject, verified, reported, output;
+  fs::path scene, verified, reported, output;
   std::string key;
 };
-
-void Track(const Arguments& a) {
-  const MethodConfig method = ReadMethodConfig(ReadJsonFile(a.method), {a.method, ""});
-  const SequenceReader sequence(a.sequence);
-  const BodyModel subject = a.subject.empty() ? sequence.subject() : ReadBodyModel(a.subject);
-  const auto as_stored = [](DepthFrame&) {};
-  TrackSequence(sequence, method, subject, as_stored, a.output);
-  RunRecord record;
-  ScoreRun(sequence, EstimateReader(a.output), ScoreSettings(), record);
-  fmt::print("{}\n", record.summary.dump(2));
-}
 
 void AddCommands(CLI::App& app, Arguments& a) {
   app.set_version_flag("--version", VersionText());
@@ -108,7 +106,7 @@ void AddCommands(CLI::App& app, Arguments& a) {
       app.add_subcommand("synth", "Synthesise a sequence from a scene, or verify one");
   synth->add_option("SCENE", a.scene, "scene file");
   synth->add_option("-o,--output", a.output, "folder of the new sequence");
-  synth->add_option("--verify", a.verified, "check this sequence instead of making one");
+  synth->add_option("--verify", a.verified, "folder of a sequence to check, instead of making one");
   synth->callback([&a] {
     if (!a.verified.empty()) return Verify(a.verified);
     if (a.scene.empty() || a.output.empty())
@@ -116,15 +114,9 @@ void AddCommands(CLI::App& app, Arguments& a) {
     Synthesize(a.scene, a.output);
   });
 
-  CLI::App* track = app.add_subcommand("track", "Track a sequence and score the result");
-  track->add_option("METHOD", a.method, "method file")->required();
-  track->add_option("--sequence", a.sequence, "folder of the sequence")->required();
-  track->add_option("-o,--output", a.output, "folder of the estimate")->required();
-  track->add_option("--subject", a.subject,
-                    "folder of the tracker's subject; the sequence's own without");
-  track->callback([&a] { Track(a); });
-
+  AddTrackCommand(app);
   AddRunCommand(app);
+  AddRunOneCommand(app);
   AddStatusCommand(app);
   AddSubmitCommand(app);
   AddSufficientCommand(app);
@@ -135,7 +127,7 @@ void AddCommands(CLI::App& app, Arguments& a) {
   CLI::App* report =
       app.add_subcommand("report", "Draw an experiment's report again from its records");
   report->add_option("DIR", a.reported, "the experiment's folder")->required();
-  report->callback([&a] { fmt::print("report: {}\n", WriteReport(a.reported).string()); });
+  report->callback([&a] { Report(a.reported); });
 
   AddIndexCommand(app);
   AddCompareCommand(app);
@@ -145,8 +137,7 @@ void AddCommands(CLI::App& app, Arguments& a) {
   AddScanCommand(app);
   AddFitCommand(app);
 
-  CLI::App* explain =
-      app.add_subcommand("explain", "Say what a setting means; without KEY list all");
+  CLI::App* explain = app.add_subcommand("explain", "Explain a setting; without KEY list all");
   explain->add_option("KEY", a.key, "a setting's key or the beginning of one");
   explain->callback([&a] { fmt::print("{}", Explain(a.key)); });
 }
@@ -154,6 +145,8 @@ void AddCommands(CLI::App& app, Arguments& a) {
 }  // namespace
 
 int RunCommandLine(int argc, const char* const* argv) {
+  // Whole lines, so that standard output and standard error can go to one file.
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
   std::signal(SIGINT, [](int) { RequestInterrupt(); });
   std::signal(SIGTERM, [](int) { RequestInterrupt(); });
   std::signal(SIGXFSZ, SIG_IGN);  // a file that must not grow is an error that is told
@@ -173,6 +166,8 @@ int RunCommandLine(int argc, const char* const* argv) {
     return static_cast<int>(ExitCode::kSuccess);
   } catch (const CLI::Success& success) {  // --help, --version
     return app.exit(success);
+  } catch (const CLI::RuntimeError& error) {  // a run's own process has said all in its folder
+    return error.get_exit_code();
   } catch (const CLI::ParseError& error) {
     app.exit(error);
     return static_cast<int>(ExitCode::kBadConfiguration);

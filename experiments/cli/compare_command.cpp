@@ -10,6 +10,7 @@
 #include "analysis/variant_comparison.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "experiments/cli/problems.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -49,6 +50,12 @@ void WriteTable(const std::vector<VariantComparison>& rows, const fs::path& file
   WriteWholeFile(file, file.extension() == ".csv" ? ToCsv(rows) : ToJson(rows).dump(2) + "\n");
 }
 
+ReportedExperiment ReadAndPrintProblems(const fs::path& folder) {
+  ReportedExperiment experiment = ReadExperiment(folder);
+  PrintProblems(experiment);
+  return experiment;
+}
+
 void Compare(const CompareArguments& a) {
   const std::string ending = a.output.extension().string();
   if (!a.output.empty() && ending != ".json" && ending != ".csv") {
@@ -57,10 +64,10 @@ void Compare(const CompareArguments& a) {
   }
   if (!a.second.empty() && !a.reference.empty())
     throw ConfigError("compare: --reference names a variant of one folder; got two folders");
-  const ReportedExperiment first = ReadExperiment(a.first);
+  const ReportedExperiment first = ReadAndPrintProblems(a.first);
   const std::vector<VariantComparison> rows =
       a.second.empty() ? CompareVariants(first, a.reference, a.metrics)
-                       : CompareExperiments(first, ReadExperiment(a.second), a.metrics);
+                       : CompareExperiments(first, ReadAndPrintProblems(a.second), a.metrics);
   PrintTable(rows);
   if (!a.output.empty()) WriteTable(rows, a.output);
 }
@@ -72,10 +79,11 @@ void AddCompareCommand(CLI::App& app) {
   CLI::App* compare = app.add_subcommand(
       "compare", "Compare the variants of an experiment, or the same runs of two folders");
   compare->add_option("DIR", a->first, "an experiment's folder")->required();
-  compare->add_option("OTHER", a->second,
-                      "another folder of the same runs; without it, the first one's variants");
-  compare->add_option("--reference", a->reference, "the variant that others are compared with");
-  compare->add_option("--metric", a->metrics, "a key of the summary rows; again for more");
+  compare->add_option(
+      "OTHER", a->second,
+      "another folder of the same runs; without it the variants of DIR are compared");
+  compare->add_option("--reference", a->reference, "the variant that the others are compared with");
+  compare->add_option("--metric", a->metrics, "key of the summary rows; can be repeated");
   compare->add_option("-o,--output", a->output, "also write the table to this .json or .csv file");
   compare->callback([a] { Compare(*a); });
 }

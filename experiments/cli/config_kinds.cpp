@@ -3,7 +3,7 @@
 #include "config/settings_schema.h"
 #include "core/error.h"
 #include "experiments/cli/regress_config.h"
-#include "experiments/plan/experiment_config.h"
+#include "experiments/plan/run_plan.h"
 #include "experiments/studies/shape_study.h"
 #include "experiments/studies/weight_study.h"
 #include "importers/eval_import.h"

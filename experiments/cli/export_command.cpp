@@ -44,7 +44,7 @@ void AddExportCommand(CLI::App& app) {
       "export", "Write estimated and true surfaces with their errors for ParaView (.vtp, .pvd)");
   command->add_option("DIR", a->folder, "the experiment's folder")->required();
   command->add_option("--only", a->only, "only runs whose id matches this pattern (* ? [abc])");
-  command->add_option("--frames", a->frames, "only these frames; all without");
+  command->add_option("--frames", a->frames, "only these frames; without it all");
   command->callback([a] { Export(*a); });
 }
 

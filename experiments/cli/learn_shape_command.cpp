@@ -94,14 +94,29 @@ BodyAttributes ToAttributes(const FitArguments& a) {
   return {a.height_m, a.weight_kg, a.sex == "male" ? Sex::kMale : Sex::kFemale};
 }
 
-void Fit(const FitArguments& a) {
-  const BodyAttributes attributes = ToAttributes(a);
-  const auto settings = a.config.empty() ? IntrinsicShapeSettings()
-                                         : ReadSettingsFile<IntrinsicShapeSettings>(a.config);
+// Without a file the defaults, with no more components than the space has.
+IntrinsicShapeSettings FitSettings(const fs::path& config, const ShapeSpace& space) {
+  if (!config.empty()) return ReadSettingsFile<IntrinsicShapeSettings>(config);
+  IntrinsicShapeSettings settings;
+  if (settings.components > space.components()) {
+    settings.components = space.components();
+    fmt::print("components: {}, all that the shape space has\n", settings.components);
+  }
+  return settings;
+}
+
+LearnedModel ReadModel(const fs::path& space) {
   LearnedModel model;
-  model.space = ReadShapeSpace(a.space);
+  model.space = ReadShapeSpace(space);
   model.tracking = MakeTrackingTemplate(model.space.reference.rest);
   model.tracking_space = OnTrackingMesh(model.space, model.tracking);
+  return model;
+}
+
+void Fit(const FitArguments& a) {
+  const BodyAttributes attributes = ToAttributes(a);
+  const LearnedModel model = ReadModel(a.space);
+  const IntrinsicShapeSettings settings = FitSettings(a.config, model.space);
   const TriangleMesh scan = ReadMesh(a.scan);
   const FittedSubject subject = FitSubject(model, scan, attributes, settings);
   WriteFittedSubject(a.output, subject, scan,
@@ -121,7 +136,8 @@ void AddLearnDatabaseCommand(CLI::App& learn) {
     fs::path config, output;
   };
   auto a = std::make_shared<Arguments>();
-  CLI::App* command = learn.add_subcommand("database", "Make the body database of a learning file");
+  CLI::App* command =
+      learn.add_subcommand("database", "Make the body database that a learning file describes");
   command->add_option("CONFIG", a->config, "learning file")->required();
   command->add_option("-o,--output", a->output, "folder of the database")->required();
   command->callback([a] { LearnDatabase(a->config, a->output); });
@@ -133,23 +149,28 @@ void AddLearnShapeCommand(CLI::App& learn) {
   };
   auto a = std::make_shared<Arguments>();
   CLI::App* command = learn.add_subcommand(
-      "shape", "Learn the space of shapes with its weights; report held-out errors");
+      "shape",
+      "Learn the shape space and the skinning weights; print the errors of held-out subjects");
   command->add_option("CONFIG", a->config, "learning file")->required();
-  command->add_option("--database", a->database, "a database folder; made anew without");
+  command->add_option("--database", a->database,
+                      "folder of a database; without it the database is made anew");
   command->add_option("-o,--output", a->output, "folder of the shape space")->required();
   command->callback([a] { LearnShape(a->config, a->database, a->output); });
 }
 
 void AddFitCommand(CLI::App& app) {
   auto a = std::make_shared<FitArguments>();
-  CLI::App* command =
-      app.add_subcommand("fit", "Fit a person's intrinsic shape to a scan: a tracker's subject");
-  command->add_option("SCAN", a->scan, "mesh of the scan, subject frame")->required();
+  CLI::App* command = app.add_subcommand(
+      "fit", "Fit a person's intrinsic shape to a scan, as a subject for trackers");
+  command->add_option("SCAN", a->scan, "mesh of the scan in the subject frame")->required();
   command->add_option("--space", a->space, "folder of the shape space")->required();
   command->add_option("--height", a->height_m, "the person's height, m")->required();
   command->add_option("--weight", a->weight_kg, "the person's weight, kg")->required();
   command->add_option("--sex", a->sex, "female or male")->required();
-  command->add_option("--settings", a->config, "settings of the fit (JSON)");
+  command->add_option(
+      "--settings", a->config,
+      "JSON file of the fit's settings; without it the defaults, with no more components than "
+      "the space has");
   command->add_option("-o,--output", a->output, "folder of the subject")->required();
   command->callback([a] { Fit(*a); });
 }

@@ -73,9 +73,9 @@ void CompareOnSubjects(const ComparisonArguments& a) {
 void AddLearnComparisonCommand(CLI::App& learn) {
   auto a = std::make_shared<ComparisonArguments>();
   CLI::App* command = learn.add_subcommand(
-      "compare", "Learn skinning weights on several people, compare them and swap them");
+      "compare", "Learn skinning weights from several people, and use those of each on the others");
   command->add_option("CONFIG", a->config, "learning file")->required();
-  command->add_option("--subjects", a->subjects, "how many of its population's first people")
+  command->add_option("--subjects", a->subjects, "number of people, the first of the population")
       ->check(CLI::Range(2, 100))
       ->capture_default_str();
   command->add_option("-o,--output", a->output, "JSON file of the comparison")->required();
@@ -90,14 +90,16 @@ void AddLearnWeightsCommand(CLI::App& learn) {
       ->add_option("MESHES", a->files.meshes,
                    "folder of PLY, OBJ and OFF files of one topology, a pose each")
       ->required();
-  command->add_option("--rest", a->files.rest, "mesh of the rest pose; the rig's own without");
-  command->add_option("--rig", a->files.rig, "body folder whose weights say where bones begin");
-  command->add_option("--labels", a->files.labels, "text file: each vertex's bone, from 0");
+  command->add_option("--rest", a->files.rest, "mesh of the rest pose; without it the rig's own");
+  command->add_option("--rig", a->files.rig,
+                      "body folder whose weights give the bones to start from");
+  command->add_option("--labels", a->files.labels,
+                      "text file with the bone of each vertex, counted from 0");
   command
       ->add_option("--bones", a->files.bones,
-                   "without rig and labels: look for so many rigid pieces")
+                   "without --rig and --labels: number of rigid pieces to look for")
       ->check(CLI::Range(1, 256));
-  command->add_option("--settings", a->settings, "settings of the decomposition (JSON)");
+  command->add_option("--settings", a->settings, "JSON file of the decomposition's settings");
   command->add_option("-o,--output", a->output, "folder of the learnt weights")->required();
   command->footer(
       "Exit codes: 0 learnt; 2 wrong arguments or settings; 3 a missing, damaged or mismatched "

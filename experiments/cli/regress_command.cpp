@@ -82,7 +82,7 @@ void Renew(const RegressArguments& a, const GatePlaces& places, const MeasuredRu
   fmt::print("{}: renewed with {} runs\n", places.baseline.string(), baseline.runs.size());
 }
 
-// Of a selection, so that what was not asked for is not missed.
+// Only the selected experiments, so that the others do not count as missing.
 GateBaseline SelectedBaseline(const GatePlaces& places, const std::string& only) {
   GateBaseline baseline = ReadBaseline(places.baseline);
   std::erase_if(baseline.runs, [&](const GatedRun& run) {
@@ -128,14 +128,14 @@ void Regress(const RegressArguments& a) {
 void AddRegressCommand(CLI::App& app) {
   const auto a = std::make_shared<RegressArguments>();
   CLI::App* regress =
-      app.add_subcommand("regress", "Measure anew and hold accuracy and speed against a baseline");
+      app.add_subcommand("regress", "Measure again and compare accuracy and speed with a baseline");
   regress->add_option("CONFIG", a->config, "what to measure: configs/nightly.json")->required();
   regress->add_option("--baseline", a->baseline, "folder of baselines")->required();
-  regress->add_option("-o,--output", a->output, "folder of the results; out/NAME without");
-  regress->add_option("--only", a->only, "experiments whose name contains this");
-  regress->add_flag("--update", a->update, "renew the baseline with what is measured");
-  regress->add_option("--reason", a->reason, "why the baseline may be renewed");
-  regress->add_flag("--stored", a->stored, "judge what was measured last instead of measuring");
+  regress->add_option("-o,--output", a->output, "folder of the results; without it out/NAME");
+  regress->add_option("--only", a->only, "only experiments whose name contains this text");
+  regress->add_flag("--update", a->update, "replace the baseline by what is measured");
+  regress->add_option("--reason", a->reason, "why the baseline may be replaced; kept in it");
+  regress->add_flag("--stored", a->stored, "judge the last measurement instead of measuring");
   regress->footer(
       "Exit codes: 0 within tolerance, 4 a run failed, 5 accuracy regressed, 6 speed regressed, "
       "7 nothing measured or less than the baseline holds, 2 bad configuration, 3 damaged files.");

@@ -5,6 +5,7 @@
 #include "analysis/experiment_runs.h"
 #include "core/error.h"
 #include "experiments/plan/experiment_config.h"
+#include "experiments/run/experiment_files.h"
 #include "experiments/run/runner.h"
 #include "experiments/studies/experiment_kinds.h"
 
@@ -18,7 +19,7 @@ fs::path RepeatFolder(const fs::path& folder, const fs::path& experiment, int re
   return folder / fmt::format("repeat-{}", repeat) / ConfigName(experiment);
 }
 
-// Only what an experiment left there may go.
+// Removes only a folder that an experiment has written.
 void RemoveMeasured(const fs::path& folder) {
   if (!fs::exists(folder)) return;
   if (!fs::is_regular_file(folder / "experiment.json")) {
@@ -58,17 +59,20 @@ void ReadExperimentRepeats(const GatedExperiment& gated, const fs::path& folder,
 
 void GatedExperiment::Describe(Fields& f) {
   f.File("experiment", experiment, {.meaning = "experiment file", .required = true});
-  f.Integer("repeats", repeats,
-            {.meaning = "how often it is carried out; speed is the median over these",
-             .min = 1,
-             .max = 100});
+  f.Integer(
+      "repeats", repeats,
+      {.meaning = "how often the experiment is carried out; speed is the median over the repeats",
+       .min = 1,
+       .max = 100});
 }
 
 void RegressSettings::Describe(Fields& f) {
-  f.Text("title", title, {.meaning = "what is watched over", .required = true});
-  f.Text("description", description, {.meaning = "more of that"});
-  f.List("experiments", experiments, {.meaning = "what is measured", .required = true});
-  f.Section("tolerances", tolerances, {.meaning = "what is still no regression"});
+  f.Text("title", title, {.meaning = "title of the gate's reports", .required = true});
+  f.Text("description", description,
+         {.meaning = "what the gate protects, for readers of the config"});
+  f.List("experiments", experiments,
+         {.meaning = "experiments that are measured", .required = true});
+  f.Section("tolerances", tolerances, {.meaning = "changes that are not yet a regression"});
 }
 
 std::vector<GatedExperiment> Selected(const RegressSettings& settings, const std::string& only) {
@@ -85,10 +89,10 @@ void MeasureRepeats(const std::vector<GatedExperiment>& experiments, const fs::p
     for (const GatedExperiment& gated : experiments) {
       if (repeat > gated.repeats) continue;
       const fs::path repeat_folder = RepeatFolder(folder, gated.experiment, repeat);
-      const Experiment planned = PlanAnyExperiment(gated.experiment, repeat_folder,
-                                                   {shared / "sequences", shared / "learned"});
+      const Experiment planned =
+          PlanAnyExperiment(gated.experiment, {shared / "sequences", shared / "learned"});
       RemoveMeasured(repeat_folder);
-      WritePlan(planned, repeat_folder);
+      WritePlan(planned, gated.experiment, repeat_folder);
       CarryOutRuns(planned.runs, kJobs, repeat_folder);
       WriteSummary(repeat_folder);
     }

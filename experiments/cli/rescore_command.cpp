@@ -5,16 +5,21 @@
 #include <CLI/CLI.hpp>
 
 #include "core/error.h"
+#include "core/message.h"
 #include "experiments/plan/run_selection.h"
+#include "experiments/run/experiment_files.h"
 #include "experiments/run/run_state.h"
-#include "experiments/run/runner.h"
 #include "scoring/rescore.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
-// Metrics only: who computed them is no result.
+struct Counts {
+  int rescored = 0, changed = 0, damaged = 0;
+};
+
+// Without the provenance, which says who computed the metrics.
 nlohmann::json ResultsOf(const RunRecord& record) {
   nlohmann::json json = record;
   json.erase("provenance");
@@ -24,15 +29,28 @@ nlohmann::json ResultsOf(const RunRecord& record) {
 // Returns whether any number changed.
 bool RescoreRun(const fs::path& folder, const std::string& run_id) {
   const std::optional<FileLock> claim = ClaimRun(folder / run_id);
-  if (!claim) throw RunError(fmt::format("{}: is being carried out by another process", run_id));
+  if (!claim) throw RunError(fmt::format("{}: another process carries it out", run_id));
   const RunRecord before = ReadRunRecord(folder, run_id);
   const RunRecord after = Rescored(folder, before);
   WriteRunRecord(folder, after);
   return ResultsOf(before) != ResultsOf(after);
 }
 
+// A run whose record or estimate cannot be read is named and left as it is.
+void RescoreIfReadable(const fs::path& folder, const std::string& run_id, Counts& counts) {
+  try {
+    const bool differs = RescoreRun(folder, run_id);
+    fmt::print("{}: {}\n", run_id, differs ? "changed" : "the same");
+    ++counts.rescored;
+    counts.changed += differs ? 1 : 0;
+  } catch (const DataError& error) {
+    PrintMessage("{}: skipped: {}\n", run_id, error.what());
+    ++counts.damaged;
+  }
+}
+
 void Rescore(const fs::path& folder, const std::string& only) {
-  int rescored = 0, changed = 0;
+  Counts counts;
   for (const std::string& run_id : ReadExperimentRecord(folder).run_ids) {
     if (!only.empty() && !MatchesPattern(only, run_id)) continue;
     if (!fs::exists(folder / run_id / "record.json")) continue;
@@ -40,16 +58,18 @@ void Rescore(const fs::path& folder, const std::string& only) {
       fmt::print("{}: has no estimate, its record stays as it is\n", run_id);
       continue;
     }
-    const bool differs = RescoreRun(folder, run_id);
-    fmt::print("{}: {}\n", run_id, differs ? "changed" : "the same");
-    ++rescored;
-    changed += differs ? 1 : 0;
+    RescoreIfReadable(folder, run_id, counts);
   }
-  if (rescored == 0)
+  if (counts.rescored + counts.damaged == 0)
     throw DataError(fmt::format("{}: holds no run to score again", folder.string()));
   WriteSummary(folder);
-  fmt::print("{} runs scored again, {} changed; vitruvia report {} draws them\n", rescored, changed,
-             folder.string());
+  fmt::print("{} runs scored again, {} changed; vitruvia report {} draws them\n", counts.rescored,
+             counts.changed, folder.string());
+  if (counts.damaged > 0)
+    throw DataError(
+        fmt::format("{}: {} runs could not be read and were skipped; vitruvia run "
+                    "carries out those with a damaged record again",
+                    folder.string(), counts.damaged));
 }
 
 }  // namespace

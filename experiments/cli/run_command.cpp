@@ -8,7 +8,10 @@
 #include <CLI/CLI.hpp>
 
 #include "core/error.h"
+#include "core/message.h"
 #include "experiments/plan/run_selection.h"
+#include "experiments/run/experiment_files.h"
+#include "experiments/run/machine_lock.h"
 #include "experiments/run/run_state.h"
 #include "experiments/run/run_times.h"
 #include "experiments/run/runner.h"
@@ -21,6 +24,16 @@ namespace {
 
 constexpr int kMostJobs = 1024;
 
+constexpr const char* kRunFooter =
+    "Each run is a process of its own. Timed runs (\"timed\": true) have the machine to "
+    "themselves:\n"
+    "every `vitruvia run` on it holds a lock file in /run/lock, or /tmp where that is not for all\n"
+    "users to write; VITRUVIA_LOCK_DIR names another folder, which all jobs and users of the "
+    "machine\n"
+    "must share.\n"
+    "Exit codes: 0 all done; 4 a run failed; 8 all done, but in some run more frames failed than\n"
+    "failed_frames_limit allows (vitruvia explain experiment.failed_frames_limit).";
+
 struct RunArguments {
   fs::path experiment, output;
   RunSelection selection;
@@ -28,17 +41,22 @@ struct RunArguments {
   bool dry_run = false;
 };
 
-// The columns that a person wants to see first, of whatever kind of experiment.
-void PrintRows(const fs::path& folder, const std::vector<PlannedRun>& runs) {
-  constexpr std::array kColumns = {
-      "frames_failed",      "l2_mean_of_diagonal", "l2_max_of_diagonal",
-      "joints_within_10cm", "frame_ms_median",     "surface_mean_m",
-      "surface_max_m",      "height_error_m",      "weight_error_kg"};
+// The columns of the printed table, for whatever kind of experiment.
+constexpr std::array kColumns = {"frames_failed",      "l2_mean_of_diagonal", "l2_max_of_diagonal",
+                                 "joints_within_10cm", "frame_ms_median",     "surface_mean_m",
+                                 "surface_max_m",      "height_error_m",      "weight_error_kg"};
+
+// Summary rows of the runs that are done.
+std::vector<Json> RowsOf(const fs::path& folder, const std::vector<PlannedRun>& runs) {
   std::vector<Json> rows;
   for (const PlannedRun& run : runs) {
     if (StatusOf(folder / run.run_id, run.key).state != RunState::kDone) continue;
     rows.push_back(ReadRunRecord(folder, run.run_id).summary);
   }
+  return rows;
+}
+
+std::vector<std::string> ColumnsOf(const std::vector<Json>& rows) {
   std::vector<std::string> columns;
   for (const char* column : kColumns) {
     if (std::any_of(rows.begin(), rows.end(),
@@ -46,6 +64,12 @@ void PrintRows(const fs::path& folder, const std::vector<PlannedRun>& runs) {
       columns.emplace_back(column);
     }
   }
+  return columns;
+}
+
+void PrintRows(const fs::path& folder, const std::vector<PlannedRun>& runs) {
+  const std::vector<Json> rows = RowsOf(folder, runs);
+  const std::vector<std::string> columns = ColumnsOf(rows);
   std::size_t widest = 0;
   for (const PlannedRun& run : runs) widest = std::max(widest, run.run_id.size());
   fmt::print("{:<{}}", "run", widest);
@@ -59,29 +83,47 @@ void PrintRows(const fs::path& folder, const std::vector<PlannedRun>& runs) {
   }
 }
 
-// A shard draws no report of half an experiment: the one that finds all runs settled does.
+// The shard that finds no run missing draws the report; the others would draw a part only.
 void FinishExperiment(const fs::path& folder, bool is_shard) {
   const int missing = WriteSummary(folder);
   if (is_shard && missing > 0) {
     fmt::print("{} runs of other shards are not done yet: no report\n", missing);
     return;
   }
-  const FileLock lock = LockExperiment(folder);  // others may have come to their end too
+  const FileLock lock = LockExperiment(folder);  // other shards may draw it now, too
   fmt::print("report: {}\n", WriteReport(folder).string());
+}
+
+// Throws unless all runs are done and none has too many failed frames.
+void RequireSuccess(const PlannedExperiment& plan, const std::vector<PlannedRun>& runs,
+                    const ExperimentOutcome& outcome) {
+  int doubtful = 0;
+  const double limit = plan.experiment.failed_frames_limit;
+  for (const PlannedRun& run : runs) {
+    const RunStatus status = StatusOf(plan.folder / run.run_id, run.key);
+    if (!status.failures.AreMoreThan(limit)) continue;
+    PrintMessage("{}: {}\n", run.run_id, status.failures.Text(limit));
+    ++doubtful;
+  }
+  if (outcome.failed > 0)
+    throw RunError(fmt::format("{} of {} runs failed", outcome.failed, runs.size()));
+  if (doubtful > 0)
+    throw Error(kFramesFailed,
+                fmt::format("too many frames failed in {} of {} runs", doubtful, runs.size()));
 }
 
 void CarryOut(const PlannedExperiment& plan, const std::vector<PlannedRun>& runs,
               const RunArguments& arguments) {
-  WritePlan(plan.experiment, plan.folder);
+  MachineLockFile();  // what is wrong with it is told before anything is written
+  WritePlan(plan.experiment, plan.file, plan.folder);
   const ExperimentOutcome outcome = CarryOutRuns(runs, arguments.jobs, plan.folder);
   PrintRows(plan.folder, runs);
   fmt::print("{} runs done, {} kept, {} failed\n", outcome.done, outcome.kept, outcome.failed);
   FinishExperiment(plan.folder, !arguments.selection.shard.empty());
-  if (outcome.failed > 0)
-    throw RunError(fmt::format("{} of {} runs failed", outcome.failed, runs.size()));
+  RequireSuccess(plan, runs, outcome);
 }
 
-// What is left to do, and how long that would take if stored runs tell.
+// What is left to do, and how long that takes as far as stored runs tell.
 class Workload {
  public:
   void Add(RunState state, std::optional<double> seconds) {
@@ -137,16 +179,17 @@ void AddRunCommand(CLI::App& app) {
   auto a = std::make_shared<RunArguments>();
   CLI::App* run = app.add_subcommand("run", "Carry out an experiment and write its report");
   run->add_option("EXPERIMENT", a->experiment, "experiment file")->required();
-  run->add_option("-o,--output", a->output, "the experiment's folder; out/NAME without");
+  run->add_option("-o,--output", a->output, "the experiment's folder; without it out/NAME");
   run->add_option("--only", a->selection.only,
                   "only runs whose id, variant or scene matches this pattern (* ? [abc])");
-  run->add_option("--shard", a->selection.shard,
-                  "i/n: only every n-th run from the i-th; the shards share one output folder");
-  run->add_option("-j,--jobs", a->jobs,
-                  "runs at a time; those of an experiment with \"timed\": true go alone")
+  run->add_option(
+      "--shard", a->selection.shard,
+      "i/n: only every n-th run, beginning with the i-th; the shards share one output folder");
+  run->add_option("-j,--jobs", a->jobs, "number of runs at a time; timed runs go one by one")
       ->check(CLI::Range(1, kMostJobs));
   run->add_flag("--dry-run", a->dry_run,
-                "only print the runs, how far each is, and an estimate of the time");
+                "only print the runs, the state of each, and an estimate of the time");
+  run->footer(kRunFooter);
   run->callback([a] { Run(*a); });
 }
 

@@ -14,37 +14,51 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
-using RunKeys = std::vector<std::pair<std::string, std::string>>;  // run id and key
+constexpr const char* kStatusFooter =
+    "Exit codes: 0 no run failed; 4 a run failed; 8 no run failed, but in some run more frames "
+    "failed\n"
+    "than failed_frames_limit allows (vitruvia explain experiment.failed_frames_limit).";
 
-void PrintStatus(const fs::path& folder, const RunKeys& runs) {
+std::string NoteOn(const RunStatus& status, double limit) {
+  if (status.failures.AreMoreThan(limit)) return ": " + status.failures.Text(limit);
+  return status.reason.empty() ? "" : ": " + status.reason;
+}
+
+void PrintStatus(const fs::path& folder, const StoredPlan& plan) {
   std::map<RunState, int> count;
-  for (const auto& [run_id, key] : runs) {
+  int doubtful = 0;
+  for (const auto& [run_id, key] : plan.runs) {
     const RunStatus status = StatusOf(folder / run_id, key);
     ++count[status.state];
+    if (status.failures.AreMoreThan(plan.failed_frames_limit)) ++doubtful;
     fmt::print("{:<8} {}{}\n", Name(status.state), run_id,
-               status.reason.empty() ? "" : ": " + status.reason);
+               NoteOn(status, plan.failed_frames_limit));
   }
-  fmt::print("{}: {} runs", folder.string(), runs.size());
+  fmt::print("{}: {} runs", folder.string(), plan.runs.size());
   for (const auto& [state, runs_of_state] : count)
     fmt::print(", {} {}", runs_of_state, Name(state));
   fmt::print("\n");
+  if (count[RunState::kFailed] > 0)
+    throw RunError(fmt::format("{} runs failed", count[RunState::kFailed]));
+  if (doubtful > 0)
+    throw Error(kFramesFailed, fmt::format("too many frames failed in {} runs", doubtful));
 }
 
 // What the experiment file means now, to this build.
-void PrintStatusOfPlan(const fs::path& experiment_file, const fs::path& output) {
-  const PlannedExperiment plan = PlanForOutput(experiment_file, output);
-  RunKeys runs;
-  for (const PlannedRun& run : plan.experiment.runs) runs.emplace_back(run.run_id, run.key);
-  PrintStatus(plan.folder, runs);
+void PrintStatusOfFile(const fs::path& experiment_file, const fs::path& output) {
+  const PlannedExperiment planned = PlanForOutput(experiment_file, output);
+  StoredPlan plan;
+  plan.failed_frames_limit = planned.experiment.failed_frames_limit;
+  for (const PlannedRun& run : planned.experiment.runs) plan.runs.push_back({run.run_id, run.key});
+  PrintStatus(planned.folder, plan);
 }
 
 // What it meant when the folder was last written to.
 void PrintStatusOfFolder(const fs::path& folder) {
-  const PlannedKeys plan = ReadPlannedKeys(folder);
-  if (plan.build_id != GetBuildInfo().build_id) {
-    fmt::print("planned by another build of vitruvia: to this one all of it is stale\n");
-  }
-  PrintStatus(folder, plan.keys);
+  const StoredPlan plan = ReadStoredPlan(folder);
+  if (plan.build_id != GetBuildInfo().build_id)
+    fmt::print("planned by another build of vitruvia, to which all of its runs are stale\n");
+  PrintStatus(folder, plan);
 }
 
 }  // namespace
@@ -55,12 +69,14 @@ void AddStatusCommand(CLI::App& app) {
   };
   auto a = std::make_shared<StatusArguments>();
   CLI::App* status = app.add_subcommand(
-      "status", "Say which runs of an experiment are done, failed, stale, running or missing");
+      "status",
+      "Say which runs of an experiment are done, failed, damaged, stale, running or missing");
+  status->footer(kStatusFooter);
   status->add_option("EXPERIMENT", a->experiment, "experiment file, or an experiment's folder")
       ->required();
-  status->add_option("-o,--output", a->output, "the experiment's folder; out/NAME without");
+  status->add_option("-o,--output", a->output, "the experiment's folder; without it out/NAME");
   status->callback([a] {
-    if (!fs::is_directory(a->experiment)) return PrintStatusOfPlan(a->experiment, a->output);
+    if (!fs::is_directory(a->experiment)) return PrintStatusOfFile(a->experiment, a->output);
     if (!a->output.empty())
       throw ConfigError(
           "status: expected an experiment's folder, or an experiment file and -o DIR");

@@ -65,13 +65,18 @@ void AddSufficientCommand(CLI::App& app) {
       ->required();
   command
       ->add_option("--margin", a->settings.margin,
-                   "share of the full model's error that may be lost")
+                   "how much larger than the full model's error the error may be, as a share of it")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
-  command->add_option("--metric", a->settings.metric, "a key of the summary rows; less is better")
+  command
+      ->add_option("--metric", a->settings.metric,
+                   "key of the summary rows, of which less is better")
       ->capture_default_str();
-  command->add_option("-o,--output", a->output, "folder of the runs; out/sufficient/NAME without");
-  command->add_option("-j,--jobs", a->settings.jobs, "runs at a time; times are then rough")
+  command->add_option("-o,--output", a->output,
+                      "folder of the runs; without it out/sufficient/NAME");
+  command
+      ->add_option("-j,--jobs", a->settings.jobs,
+                   "number of runs at a time; with more than one, times are less exact")
       ->check(CLI::Range(1, kMostSufficientJobs));
   command->callback([a] { FindAndPrint(*a); });
 }

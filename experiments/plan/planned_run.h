@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,20 +18,40 @@ struct WorkFolders {
   std::filesystem::path learned;  // models and fitted subjects
 };
 
+// All that another process needs to carry out the run, without the experiment file: what the file
+// says may change while the experiment goes on. Stored as run.json in the run's folder.
 struct PlannedRun {
+  std::string experiment;  // its name
+  std::string kind;        // of the experiment; says which function carries out the run
   std::string run_id;
-  std::string key;  // WorkKey() of all that its result depends on
-  // Does the work; writes what it likes into its own folder.
-  std::function<RunRecord(const std::filesystem::path& run_folder)> carry_out;
+  std::string key;  // WorkKey(resolved)
+  // Every setting that the result depends on; files are named as seen from the folder in which the
+  // experiment was planned.
+  Json resolved = Json::object();
+  std::string variant, scene, method;  // as the run's record names them; "" if it has none
+  int seed = 0;
+  int repeat = 0;      // 1, 2, … where the same run is carried out several times
+  int person = 0;      // number in the population, for experiments about people
+  int frames = 0;      // 0: the run has none
+  bool timed = false;  // nothing else may run beside it on its machine
+  WorkFolders work;
 
-  std::string variant, scene, method;  // as its record will say; "" if it has none
-  int frames = 0;                      // 0: it has none
-  bool timed = false;                  // nothing else may run beside it on its machine
-  std::optional<KeptFolder> shares;    // work that the first of several runs does for all
+  std::optional<KeptFolder> shares;  // not stored: work that the first of several runs does for all
+
+  void Describe(Fields& fields);
 };
 
+// RunError if it cannot be written.
+void WritePlannedRun(const std::filesystem::path& run_folder, const PlannedRun& run);
+// DataError if it is missing or damaged.
+PlannedRun ReadPlannedRun(const std::filesystem::path& run_folder);
+
+// Where settings of `resolved` were read from: their files are named as seen from this folder.
+JsonOrigin ResolvedOrigin(const char* key);
+
 struct Experiment {
-  ExperimentRecord record;  // without failures
+  ExperimentRecord record;           // without failures
+  double failed_frames_limit = 1.0;  // share of a run's frames that may fail
   std::vector<PlannedRun> runs;
 };
 

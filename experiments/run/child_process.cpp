@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
+#include <linux/close_range.h>
+#include <spawn.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,35 +18,33 @@ namespace {
 
 constexpr mode_t kMessagesMode = 0666;  // less the umask, as for any new file
 
-void SendMessagesTo(const std::filesystem::path& file) {
-  if (file.empty()) return;
-  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND, kMessagesMode);
-  if (descriptor < 0) return;  // then they go where ours go
-  dup2(descriptor, STDERR_FILENO);
-  close(descriptor);
-}
+// What posix_spawn does in the child before the program starts.
+class SpawnActions {
+ public:
+  SpawnActions() { posix_spawn_file_actions_init(&actions_); }
+  ~SpawnActions() {
+    posix_spawn_file_actions_destroy(&actions_);
+    if (messages_ >= 0) close(messages_);
+  }
+  SpawnActions(const SpawnActions&) = delete;
+  SpawnActions& operator=(const SpawnActions&) = delete;
 
-[[noreturn]] void BeChild(pid_t parent, const std::filesystem::path& messages,
-                          const std::function<int()>& work) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(static_cast<int>(ExitCode::kInterrupted));  // too late to be told
-  SendMessagesTo(messages);
-  const int code = work();
-  std::fflush(nullptr);
-  _exit(code);  // what the parent has open is the parent's to close
-}
+  // Messages go where ours go if the file cannot be opened.
+  void SendMessagesTo(const std::filesystem::path& file) {
+    messages_ = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, kMessagesMode);
+    if (messages_ >= 0) posix_spawn_file_actions_adddup2(&actions_, messages_, STDERR_FILENO);
+  }
+  // A descriptor copied to itself loses its mark to be closed on exec.
+  void Inherit(int descriptor) {
+    posix_spawn_file_actions_adddup2(&actions_, descriptor, descriptor);
+  }
 
-// A forked process has only the thread that forked: it would wait forever for work of the others.
-void RequireNoThreads() {
-  std::error_code unknown;
-  const auto threads =
-      std::distance(std::filesystem::directory_iterator("/proc/self/task", unknown),
-                    std::filesystem::directory_iterator());
-  Require(threads <= 1,
-          "ChildProcesses: this process has {} threads (it has rendered something?); expected runs "
-          "to be carried out before",
-          threads);
-}
+  const posix_spawn_file_actions_t* get() const { return &actions_; }
+
+ private:
+  posix_spawn_file_actions_t actions_;
+  int messages_ = -1;
+};
 
 std::string ProblemOf(int status) {
   if (!WIFSIGNALED(status)) return "";
@@ -61,14 +61,22 @@ ChildProcesses::~ChildProcesses() {
   }
 }
 
-void ChildProcesses::Start(int id, const std::filesystem::path& messages,
-                           const std::function<int()>& work) {
-  RequireNoThreads();
-  std::fflush(nullptr);  // or both processes would write what is waiting
-  const pid_t self = getpid();
-  const pid_t process = fork();
-  if (process < 0) throw RunError(fmt::format("no new process: {}", std::strerror(errno)));
-  if (process == 0) BeChild(self, messages, work);
+void ChildProcesses::Start(int id, const ChildCommand& command) {
+  SpawnActions actions;
+  if (!command.messages.empty()) actions.SendMessagesTo(command.messages);
+  for (const int descriptor : command.inherited) actions.Inherit(descriptor);
+  std::vector<std::string> words = command.arguments;
+  words.insert(words.begin(), command.program.string());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  std::fflush(nullptr);  // what we have printed comes before what the child prints
+  pid_t process = -1;
+  const int error =
+      posix_spawnp(&process, command.program.c_str(), actions.get(), nullptr, argv.data(), environ);
+  if (error != 0)
+    throw RunError(
+        fmt::format("{}: cannot be started: {}", command.program.string(), std::strerror(error)));
   children_.push_back({process, id});
 }
 
@@ -81,6 +89,13 @@ std::vector<ChildProcesses::End> ChildProcesses::TakeEnded() {
     return true;
   });
   return ended;
+}
+
+void EndWithParent(pid_t parent) {
+  close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent)  // it ended before we asked to be told
+    throw Error(ExitCode::kInterrupted, "the process that started this one has ended");
 }
 
 }  // namespace vitruvia

@@ -1,35 +1,39 @@
-// Work that goes on in processes of its own beside this one, so that a crash costs one piece of it.
+// Programs that run in processes beside this one, so that a crash costs one piece of work only.
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <sys/types.h>
 #include <vector>
 
 namespace vitruvia {
 
-// Children forked from this process. They end when it does, however it does.
+struct ChildCommand {
+  std::filesystem::path program;       // a name without "/" is looked up in PATH
+  std::vector<std::string> arguments;  // without the program's name
+  std::filesystem::path messages;      // standard error is appended to this file; "": it is ours
+  std::vector<int> inherited;          // descriptors that stay open in the child, such as locks
+};
+
+// Children of this process, started by posix_spawn: it does not matter which threads there are.
 class ChildProcesses {
  public:
   ChildProcesses() = default;
-  ~ChildProcesses();  // asks those still there to stop, and waits for them
+  ~ChildProcesses();  // sends SIGTERM to children that still run, and waits for them
   ChildProcesses(const ChildProcesses&) = delete;
   ChildProcesses& operator=(const ChildProcesses&) = delete;
 
-  // Calls `work` in a child, which then ends with the code that it returns; `work` throws nothing.
-  // This process must not have other threads; rendering leaves some behind.
-  // Its messages (standard error) go to the end of the file, or where ours go if that is "".
-  void Start(int id, const std::filesystem::path& messages, const std::function<int()>& work);
+  // RunError naming the program and the system's reason if it cannot be started.
+  void Start(int id, const ChildCommand& command);
 
   int running() const { return static_cast<int>(children_.size()); }
 
   struct End {
     int id;
-    int code;             // as returned by `work`; −1 after a crash
+    int code;             // exit code; −1 after a crash
     std::string problem;  // "" unless it crashed: "ended by signal 11 (Segmentation fault)"
   };
-  // Those that have ended since the last call.
+  // Children that have ended since the last call.
   std::vector<End> TakeEnded();
 
  private:
@@ -39,5 +43,10 @@ class ChildProcesses {
   };
   std::vector<Child> children_;
 };
+
+// For a child to call first: it is killed when the process `parent` that started it ends, however
+// that ends, and the programs that it starts itself do not inherit its descriptors.
+// Throws Error(kInterrupted) if the parent has ended already.
+void EndWithParent(pid_t parent);
 
 }  // namespace vitruvia

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "config/json_node.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "records/run_record.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -21,7 +21,17 @@ std::string StatusText(const fs::path& run_folder) {
   try {
     return ReadWholeFile(run_folder / kStatusFile);
   } catch (const DataError&) {
-    return "";  // not there, or taken away by who begins the run at this moment
+    return "";  // not there, or removed at this moment by a process that begins the run
+  }
+}
+
+RunStatus StatusOfDone(const fs::path& run_folder) {
+  try {
+    const RunRecord record =
+        ReadRunRecord(run_folder.parent_path(), run_folder.filename().string());
+    return {RunState::kDone, "", FrameFailuresOf(record.summary)};
+  } catch (const DataError& error) {
+    return {RunState::kDamaged, error.what(), {}};
   }
 }
 
@@ -38,6 +48,8 @@ const char* Name(RunState state) {
       return "done";
     case RunState::kFailed:
       return "failed";
+    case RunState::kDamaged:
+      return "damaged";
     case RunState::kStale:
       return "stale";
     case RunState::kRunning:
@@ -50,12 +62,12 @@ const char* Name(RunState state) {
 
 RunStatus StatusOf(const fs::path& run_folder, const std::string& key) {
   const std::string text = StatusText(run_folder);
-  if (text == DoneText(key)) return {RunState::kDone, ""};
-  if (FileLock::Held(run_folder / kLockFile)) return {RunState::kRunning, ""};
+  if (text == DoneText(key)) return StatusOfDone(run_folder);
+  if (FileLock::Held(run_folder / kLockFile)) return {RunState::kRunning, "", {}};
   const std::string head = FailedHead(key);
   if (text.starts_with(head))
-    return {RunState::kFailed, WithoutLastNewline(text.substr(head.size()))};
-  return {text.empty() ? RunState::kMissing : RunState::kStale, ""};
+    return {RunState::kFailed, WithoutLastNewline(text.substr(head.size())), {}};
+  return {text.empty() ? RunState::kMissing : RunState::kStale, "", {}};
 }
 
 void MarkDone(const fs::path& run_folder, const std::string& key) {
@@ -73,20 +85,30 @@ std::optional<FileLock> ClaimRun(const fs::path& run_folder) {
   return FileLock::Try(run_folder / kLockFile, LockKind::kExclusive);
 }
 
-void WritePlannedKeys(const fs::path& experiment_folder, const PlannedKeys& plan) {
-  nlohmann::json runs = nlohmann::json::array();
-  for (const auto& [run_id, key] : plan.keys) runs.push_back({{"run_id", run_id}, {"key", key}});
-  WriteWholeFile(experiment_folder / kPlanFile,
-                 nlohmann::json{{"build_id", plan.build_id}, {"runs", runs}}.dump(1) + "\n");
+void StoredPlan::Run::Describe(Fields& f) {
+  f.Text("run_id", run_id, {.meaning = "name of the run", .required = true});
+  f.Text("key", key, {.meaning = "hash of all that its result depends on", .required = true});
 }
 
-PlannedKeys ReadPlannedKeys(const fs::path& experiment_folder) {
-  const fs::path file = experiment_folder / kPlanFile;
-  const nlohmann::json json = ReadStoredJson(file);
-  const JsonNode node(json, file.string());
-  return {node.At("build_id").Text(), node.At("runs").List([](const JsonNode& run) {
-            return std::pair(run.At("run_id").Text(), run.At("key").Text());
-          })};
+void StoredPlan::Describe(Fields& f) {
+  f.Text("build_id", build_id, {.meaning = "build of the planning program", .required = true});
+  f.File("experiment_file", experiment_file, {.meaning = "experiment file that was planned"});
+  f.Number("failed_frames_limit", failed_frames_limit,
+           {.meaning = "share of a run's frames that may fail"});
+  f.List("runs", runs, {.meaning = "runs of the grid", .required = true});
+}
+
+void WriteStoredPlan(const fs::path& experiment_folder, const StoredPlan& plan) {
+  StoredPlan stored = plan;
+  if (!plan.experiment_file.empty())  // so that the folder can move together with the file
+    stored.experiment_file = fs::absolute(plan.experiment_file)
+                                 .lexically_normal()
+                                 .lexically_relative(fs::absolute(experiment_folder));
+  WriteWholeFile(experiment_folder / kPlanFile, WriteSettings(stored).dump(1) + "\n");
+}
+
+StoredPlan ReadStoredPlan(const fs::path& experiment_folder) {
+  return ReadDataFile<StoredPlan>(experiment_folder / kPlanFile);
 }
 
 }  // namespace vitruvia

@@ -1,8 +1,9 @@
-// How far the runs of an experiment are: read from their folders, by any process at any time.
+// The state of each run of an experiment, read from its folder by any process at any time.
 //
-//   <run id>/status   "done KEY" or "failed KEY" and the reason; absent: not carried out
-//   <run id>/lock     locked by the process that carries the run out
-//   <run id>/messages what a run prints that goes on beside others
+//   <run id>/run.json  the run's settings (planned_run.h)
+//   <run id>/status    "done KEY" or "failed KEY" and the reason; absent: not carried out
+//   <run id>/lock      locked while a process carries out the run
+//   <run id>/messages  standard error of a run that is carried out beside others
 #pragma once
 
 #include <filesystem>
@@ -11,42 +12,53 @@
 #include <vector>
 
 #include "core/file_lock.h"
+#include "experiments/run/frame_failures.h"
 
 namespace vitruvia {
 
 enum class RunState {
-  kDone,     // by this program, from these settings and files
-  kFailed,   // so, too; it is tried again by the next call
-  kStale,    // done or failed, but with other settings, files or by another build
-  kRunning,  // some process is at it
+  kDone,     // by this program, with these settings and files
+  kFailed,   // likewise; the next call of `run` tries it again
+  kDamaged,  // done, but its record cannot be read any more
+  kStale,    // done or failed with other settings or files, or by another build
+  kRunning,  // a process carries it out now
   kMissing,  // not carried out, or interrupted
 };
 const char* Name(RunState state);
 
 struct RunStatus {
   RunState state = RunState::kMissing;
-  std::string reason;  // of a failure
+  std::string reason;      // of a failed or damaged run
+  FrameFailures failures;  // of a run that is done
 };
 
-// `key`: what the run's result depends on (WorkKey, kept_work.h).
+// `key`: hash of all that the run's result depends on (WorkKey, build_cache.h).
 RunStatus StatusOf(const std::filesystem::path& run_folder, const std::string& key);
 
 void MarkDone(const std::filesystem::path& run_folder, const std::string& key);
 void MarkFailed(const std::filesystem::path& run_folder, const std::string& key,
                 const std::string& reason);
-void MarkBegun(const std::filesystem::path& run_folder);  // no longer done nor failed
+void MarkBegun(const std::filesystem::path& run_folder);  // neither done nor failed any more
 
 // The right to carry out a run; nothing while another process has it.
 std::optional<FileLock> ClaimRun(const std::filesystem::path& run_folder);
 
-// The runs that an experiment's folder was last planned for (plan.json), so that its state can be
-// told without the experiment file.
-struct PlannedKeys {
-  std::string build_id;                                   // of the program that planned
-  std::vector<std::pair<std::string, std::string>> keys;  // run id and key, in the grid's order
+// What an experiment's folder was last planned for (plan.json), so that its state can be told
+// without the experiment file.
+struct StoredPlan {
+  struct Run {
+    std::string run_id, key;
+    void Describe(Fields& fields);
+  };
+  std::string build_id;                   // of the program that planned
+  std::filesystem::path experiment_file;  // "" in plans of older programs
+  double failed_frames_limit = 1.0;
+  std::vector<Run> runs;  // in the grid's order
+
+  void Describe(Fields& fields);
 };
-void WritePlannedKeys(const std::filesystem::path& experiment_folder, const PlannedKeys& plan);
+void WriteStoredPlan(const std::filesystem::path& experiment_folder, const StoredPlan& plan);
 // DataError if there is none or it is damaged.
-PlannedKeys ReadPlannedKeys(const std::filesystem::path& experiment_folder);
+StoredPlan ReadStoredPlan(const std::filesystem::path& experiment_folder);
 
 }  // namespace vitruvia

@@ -11,8 +11,8 @@
 #include "core/files.h"
 #include "core/message.h"
 #include "core/progress.h"
-#include "core/timer.h"
 #include "experiments/run/child_process.h"
+#include "experiments/run/machine_lock.h"
 #include "experiments/run/run_state.h"
 
 namespace vitruvia {
@@ -21,43 +21,16 @@ namespace {
 
 constexpr std::chrono::milliseconds kLookAgainAfter{20};
 
-// Held shared by whoever carries out runs on this machine, and alone by whoever times them.
-FileLock LockMachine(LockKind kind) {
-  const fs::path file = fs::temp_directory_path() / fmt::format("vitruvia-runs-{}.lock", getuid());
-  if (std::optional<FileLock> lock = FileLock::Try(file, kind)) return std::move(*lock);
-  PrintMessage("waiting: timed runs go alone on their machine, and others are going on\n");
-  return FileLock::Wait(file, kind);
-}
-
-// In the run's own process: carries it out and leaves record and status behind.
-int CarryOutOne(const PlannedRun& run, int jobs, const fs::path& folder) {
-  const fs::path run_folder = folder / run.run_id;
-  try {
-    try {
-      const Stopwatch watch;
-      RunRecord record = run.carry_out(run_folder);
-      record.provenance["run"] = {
-          {"wall_s", watch.ElapsedMs() / 1e3}, {"timed", run.timed}, {"jobs", jobs}};
-      WriteRunRecord(folder, record);
-      MarkDone(run_folder, run.key);
-      return static_cast<int>(ExitCode::kSuccess);
-    } catch (const std::exception& error) {
-      ThrowIfInterrupted();
-      MarkFailed(run_folder, run.key, error.what());
-      return static_cast<int>(ExitCode::kFailedRun);
-    }
-  } catch (const Error& error) {
-    return static_cast<int>(error.code());
-  } catch (const std::exception& error) {
-    PrintMessage("{}\n", error.what());
-    return static_cast<int>(ExitCode::kInternalError);
-  }
-}
+// Where and how runs are carried out.
+struct Site {
+  int jobs;
+  fs::path folder, program;
+};
 
 class Scheduler {
  public:
-  Scheduler(std::vector<const PlannedRun*> runs, int jobs, fs::path folder)
-      : runs_(std::move(runs)), jobs_(jobs), folder_(std::move(folder)) {
+  Scheduler(std::vector<const PlannedRun*> runs, Site site, const FileLock& machine)
+      : runs_(std::move(runs)), site_(std::move(site)), machine_(machine) {
     for (std::size_t i = 0; i < runs_.size(); ++i) pending_.push_back(i);
   }
 
@@ -74,17 +47,17 @@ class Scheduler {
  private:
   struct InFlight {
     FileLock claim;
-    std::string prepares;  // the shared work that it has to do first; "" if that was done
+    std::string prepares;  // the shared work that the run does first; "" if that was done before
   };
 
-  // Looks at no run while all jobs are taken: asking has to be cheap, for times are being measured.
+  // Looks at no run while all jobs are taken: times are being measured, so it must cost nothing.
   void StartWhatCanBe() {
     std::erase_if(pending_, [this](std::size_t i) {
-      return children_.running() < jobs_ && (Settled(i) || Started(i));
+      return children_.running() < site_.jobs && (Settled(i) || Started(i));
     });
   }
 
-  // Whether the run needs nothing more: done before or, while we waited, by another process.
+  // Whether the run needs nothing more: it was done before or, meanwhile, by another process.
   bool Settled(std::size_t i) {
     const RunStatus status = StatusOf(FolderOf(i), runs_[i]->key);
     if (status.state == RunState::kDone) ++outcome_.kept;
@@ -100,25 +73,41 @@ class Scheduler {
     std::optional<FileLock> claim = ClaimRun(FolderOf(i));
     if (!claim) NoteElsewhere(i);
     if (!claim || StatusOf(FolderOf(i), run.key).state == RunState::kDone) return false;
-    Begin(i, std::move(*claim));
+    try {
+      Begin(i, std::move(*claim));
+    } catch (const RunError& error) {  // a full disk, say
+      CountFailure(run, error.what());
+    }
     return true;
   }
 
   void Begin(std::size_t i, FileLock claim) {
     const PlannedRun& run = *runs_[i];
-    const fs::path messages = jobs_ > 1 ? FolderOf(i) / "messages" : fs::path();
     MarkBegun(FolderOf(i));
     RemoveUnfinished(FolderOf(i) / "estimate");
-    if (!messages.empty()) fs::remove(messages);
+    WritePlannedRun(FolderOf(i), run);
     PrintMessage("run {}/{}: {}\n", i + 1, runs_.size(), run.run_id);
     const bool prepares = run.shares && !run.shares->complete();
+    // The locks last as long as the child, even if this process is killed.
+    children_.Start(static_cast<int>(i), CommandOf(i, {claim.descriptor(), machine_.descriptor()}));
     in_flight_.emplace(
         i, InFlight{std::move(claim), prepares ? run.shares->path().string() : std::string()});
-    children_.Start(static_cast<int>(i), messages,
-                    [&run, this] { return CarryOutOne(run, jobs_, folder_); });
   }
 
-  // A second run would only wait while the first does what they share.
+  ChildCommand CommandOf(std::size_t i, std::vector<int> locks) const {
+    ChildCommand command{site_.program,
+                         {"run-one", FolderOf(i).string(), "--parent", std::to_string(getpid()),
+                          "--jobs", std::to_string(site_.jobs)},
+                         {},
+                         std::move(locks)};
+    if (site_.jobs > 1) {
+      command.messages = FolderOf(i) / "messages";
+      fs::remove(command.messages);
+    }
+    return command;
+  }
+
+  // Another run does the shared work now, and this one would only wait for it.
   bool IsBeingPrepared(const PlannedRun& run) const {
     return run.shares && !run.shares->complete() &&
            std::any_of(in_flight_.begin(), in_flight_.end(), [&run](const auto& item) {
@@ -137,47 +126,50 @@ class Scheduler {
         ++outcome_.done;
         continue;
       }
-      ++outcome_.failed;
       const std::string reason = StatusOf(FolderOf(i), run.key).reason;
-      PrintMessage("run failed: {}: {}\n", run.run_id,
-                   reason.empty() ? "no status could be written" : reason);
+      CountFailure(run, reason.empty() ? "no status could be written" : reason);
     }
   }
 
-  void NoteElsewhere(std::size_t i) {
-    if (elsewhere_.insert(i).second) PrintMessage("another process is at {}\n", runs_[i]->run_id);
+  void CountFailure(const PlannedRun& run, const std::string& reason) {
+    ++outcome_.failed;
+    PrintMessage("run failed: {}: {}\n", run.run_id, reason);
   }
 
-  fs::path FolderOf(std::size_t i) const { return folder_ / runs_[i]->run_id; }
+  void NoteElsewhere(std::size_t i) {
+    if (elsewhere_.insert(i).second)
+      PrintMessage("another process carries out {}\n", runs_[i]->run_id);
+  }
+
+  fs::path FolderOf(std::size_t i) const { return site_.folder / runs_[i]->run_id; }
 
   std::vector<const PlannedRun*> runs_;
-  int jobs_;
-  fs::path folder_;
+  Site site_;
+  const FileLock& machine_;
   std::vector<std::size_t> pending_;
-  std::set<std::size_t> elsewhere_;  // those that another process was seen at
+  std::set<std::size_t> elsewhere_;  // runs that another process was seen to carry out
   ExperimentOutcome outcome_;
   std::map<std::size_t, InFlight> in_flight_;
-  ChildProcesses children_;  // goes first, so that claims outlive the children
+  ChildProcesses children_;  // destroyed first, so that claims outlive the children
 };
 
-ExperimentOutcome CarryOutPhase(const std::vector<PlannedRun>& runs, bool timed, int jobs,
-                                const fs::path& folder) {
+ExperimentOutcome CarryOutPhase(const std::vector<PlannedRun>& runs, bool timed, const Site& site) {
   std::vector<const PlannedRun*> chosen;
   for (const PlannedRun& run : runs) {
     if (run.timed == timed) chosen.push_back(&run);
   }
   if (chosen.empty()) return {};
   const FileLock machine = LockMachine(timed ? LockKind::kExclusive : LockKind::kShared);
-  return Scheduler(chosen, timed ? 1 : jobs, folder).Work();
+  return Scheduler(chosen, site, machine).Work();
 }
 
 }  // namespace
 
 ExperimentOutcome CarryOutRuns(const std::vector<PlannedRun>& runs, int jobs,
-                               const fs::path& folder) {
+                               const fs::path& folder, const fs::path& program) {
   MakeFolder(folder);
-  const ExperimentOutcome parallel = CarryOutPhase(runs, false, jobs, folder);
-  const ExperimentOutcome timed = CarryOutPhase(runs, true, jobs, folder);
+  const ExperimentOutcome parallel = CarryOutPhase(runs, false, {jobs, folder, program});
+  const ExperimentOutcome timed = CarryOutPhase(runs, true, {1, folder, program});
   return {parallel.done + timed.done, parallel.kept + timed.kept, parallel.failed + timed.failed};
 }
 

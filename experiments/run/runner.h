@@ -1,14 +1,13 @@
 // Carries out the runs of an experiment, each in a process of its own.
 //
 // Several callers may work on one folder at the same time, here or on other machines that share it:
-// whoever claims a run carries it out, the others go on with the next and wait for it at the end.
-// A caller that is stopped or killed loses the runs in flight; the next one goes on.
+// the one that claims a run carries it out, the others go on with the next and wait for it at the
+// end. A caller that is stopped or killed loses the runs in flight; the next call goes on.
 #pragma once
 
 #include <filesystem>
 #include <vector>
 
-#include "core/file_lock.h"
 #include "experiments/plan/planned_run.h"
 
 namespace vitruvia {
@@ -19,20 +18,16 @@ struct ExperimentOutcome {
   int failed = 0;  // runs that ended in an error or a crash
 };
 
-// Who writes files that speak of the whole experiment holds this lock meanwhile.
-FileLock LockExperiment(const std::filesystem::path& folder);
+// The running program, even if its file has been replaced since it was started.
+inline constexpr const char* kThisProgram = "/proc/self/exe";
 
-// Writes what status and report need to know of the whole grid: experiment.json and plan.json.
-void WritePlan(const Experiment& experiment, const std::filesystem::path& folder);
-
-// Carries out whatever of `runs` is not yet done, up to `jobs` at a time; timed runs last, one by
-// one, while no other run of this user goes on on this machine. A run that fails is recorded and
-// the others go on. Throws Error(kInterrupted) if a stop was asked for.
+// Carries out the runs that are not yet done, up to `jobs` at a time; timed runs last, one by one,
+// while no other run goes on on this machine. A run is `program run-one RUN_FOLDER …`
+// (run_process.h). A run that fails is recorded and the others go on. Throws Error(kInterrupted)
+// when the user asks to stop. The calling thread must outlive the call, for runs are killed when it
+// ends.
 ExperimentOutcome CarryOutRuns(const std::vector<PlannedRun>& runs, int jobs,
-                               const std::filesystem::path& folder);
-
-// Writes experiment.json and summary.json anew, from what lies in the folder: whoever ends last
-// writes the same. Returns how many runs of the grid are neither done nor failed.
-int WriteSummary(const std::filesystem::path& folder);
+                               const std::filesystem::path& folder,
+                               const std::filesystem::path& program = kThisProgram);
 
 }  // namespace vitruvia

@@ -1,10 +1,8 @@
 #include "experiments/studies/experiment_kinds.h"
 
-#include <functional>
-#include <memory>
-
 #include "core/error.h"
-#include "experiments/run/tracking_runs.h"
+#include "experiments/plan/run_plan.h"
+#include "experiments/run/tracking_run.h"
 #include "experiments/studies/shape_study.h"
 #include "experiments/studies/weight_study.h"
 
@@ -12,48 +10,53 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
-Experiment PlanTracking(const fs::path& file, const fs::path& folder, const WorkFolders& work) {
-  // The runs speak of the plan as long as they live.
-  const auto plan = std::make_shared<ExperimentPlan>(PlanExperiment(file));
-  Experiment experiment{plan->record, TrackingRuns(*plan, folder, work)};
-  for (PlannedRun& run : experiment.runs) {
-    run.carry_out = [plan, carry_out = std::move(run.carry_out)](const fs::path& run_folder) {
-      return carry_out(run_folder);
-    };
-  }
-  return experiment;
+Experiment PlanTracking(const fs::path& file, const WorkFolders& work) {
+  const ExperimentPlan plan = PlanExperiment(file);
+  return {plan.record, plan.failed_frames_limit, PlannedRuns(plan, work)};
 }
 
 struct Kind {
   const char* name;
-  std::function<Experiment(const fs::path&, const fs::path&, const WorkFolders&)> plan;
+  Experiment (*plan)(const fs::path& file, const WorkFolders& work);
+  RunRecord (*carry_out)(const PlannedRun& run, const fs::path& run_folder);
 };
 
 const std::vector<Kind>& Kinds() {
-  static const std::vector<Kind> kinds = {
-      {"tracking", PlanTracking},
-      {"intrinsic_shape", [](const fs::path& file, const fs::path&,
-                             const WorkFolders& work) { return PlanShapeStudy(file, work); }},
-      {"skinning_weights", [](const fs::path& file, const fs::path&, const WorkFolders& work) {
-         return PlanWeightStudy(file, work);
-       }}};
+  static const std::vector<Kind> kinds = {{kTrackingKind, PlanTracking, CarryOutTracking},
+                                          {kShapeKind, PlanShapeStudy, CarryOutShapeRun},
+                                          {kWeightKind, PlanWeightStudy, CarryOutWeightRun}};
   return kinds;
+}
+
+const Kind& FindKind(const std::string& name, const std::string& where) {
+  std::vector<std::string> names;
+  for (const Kind& known : Kinds()) {
+    if (known.name == name) return known;
+    names.emplace_back(known.name);
+  }
+  throw ConfigError(fmt::format("{}: kind: unknown kind of experiment \"{}\"; expected one of {}",
+                                where, name, fmt::join(names, ", ")));
+}
+
+void RequireSameInputs(const PlannedRun& run) {
+  if (WorkKey(run.resolved) == run.key) return;
+  throw DataError(
+      "a file that the run reads, or the program itself, has changed since the experiment was "
+      "planned; run the experiment again");
 }
 
 }  // namespace
 
-Experiment PlanAnyExperiment(const fs::path& experiment_file, const fs::path& folder,
-                             const WorkFolders& work) {
+Experiment PlanAnyExperiment(const fs::path& experiment_file, const WorkFolders& work) {
   const Json json = ReadJsonFile(experiment_file);
-  std::string kind = Kinds().front().name;
-  if (json.is_object() && json.contains("kind") && json["kind"].is_string()) kind = json["kind"];
-  std::vector<std::string> names;
-  for (const Kind& known : Kinds()) {
-    if (known.name == kind) return known.plan(experiment_file, folder, work);
-    names.emplace_back(known.name);
-  }
-  throw ConfigError(fmt::format("{}: kind: unknown kind of experiment \"{}\"; expected one of {}",
-                                experiment_file.string(), kind, fmt::join(names, ", ")));
+  const bool names_kind = json.is_object() && json.contains("kind") && json["kind"].is_string();
+  const std::string kind = names_kind ? json["kind"].get<std::string>() : kTrackingKind;
+  return FindKind(kind, experiment_file.string()).plan(experiment_file, work);
+}
+
+RunRecord CarryOutAnyRun(const PlannedRun& run, const fs::path& run_folder) {
+  RequireSameInputs(run);
+  return FindKind(run.kind, run.run_id).carry_out(run, run_folder);
 }
 
 }  // namespace vitruvia

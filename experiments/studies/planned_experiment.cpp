@@ -1,6 +1,7 @@
 #include "experiments/studies/planned_experiment.h"
 
 #include "experiments/plan/experiment_config.h"
+#include "experiments/run/experiment_files.h"
 #include "experiments/studies/experiment_kinds.h"
 
 namespace vitruvia {
@@ -9,8 +10,11 @@ namespace fs = std::filesystem;
 PlannedExperiment PlanForOutput(const fs::path& experiment_file, const fs::path& output) {
   const fs::path root = output.empty() ? fs::path("out") : output;
   const fs::path folder = output.empty() ? root / ConfigName(experiment_file) : output;
-  return {PlanAnyExperiment(experiment_file, folder, {root / "sequences", root / "learned"}),
-          folder, root};
+  PlannedExperiment planned{
+      PlanAnyExperiment(experiment_file, {root / "sequences", root / "learned"}), experiment_file,
+      folder, root};
+  RequireOwnFolder(folder, experiment_file);
+  return planned;
 }
 
 }  // namespace vitruvia

@@ -1,4 +1,4 @@
-// An experiment file as commands take it: where its output goes and what it plans.
+// An experiment file as commands take it: what it plans and where its output goes.
 #pragma once
 
 #include <filesystem>
@@ -9,11 +9,13 @@ namespace vitruvia {
 
 struct PlannedExperiment {
   Experiment experiment;
+  std::filesystem::path file;    // of the experiment
   std::filesystem::path folder;  // of its output
   std::filesystem::path root;    // below which other experiments' output may lie too
 };
 
-// The output goes to `output`, or to out/NAME if that is "". Writes nothing. Throws ConfigError.
+// The output goes to `output`, or to out/NAME if that is "". Writes nothing. ConfigError also if
+// the folder holds the output of another experiment file.
 PlannedExperiment PlanForOutput(const std::filesystem::path& experiment_file,
                                 const std::filesystem::path& output);
 

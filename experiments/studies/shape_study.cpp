@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "config/build_cache.h"
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/timer.h"
+#include "experiments/studies/held_out_people.h"
 #include "geometry/surface_map.h"
 #include "math/rigid_fit.h"
 #include "math/statistics.h"
@@ -37,12 +37,24 @@ Rigidf Alignment(const std::vector<Vector3f>& from, const std::vector<Vector3f>&
   return FitRigid(from.size(), pair_at).Cast<float>();
 }
 
-struct ShapeStudy {
-  ShapeStudySettings settings;
+// The settings of one run.
+struct ShapeRun {
   LearningSettings learning;
-  std::vector<ScanSettings> scans;
-  WorkFolders work;
+  ScanSettings scan;
+  IntrinsicShapeSettings fit;
 };
+
+Json ToJson(const ShapeRun& run) {
+  return {{"learning", WriteSettings(run.learning)},
+          {"scan", WriteSettings(run.scan)},
+          {"fit", WriteSettings(run.fit)}};
+}
+
+ShapeRun ReadShapeRun(const Json& resolved) {
+  return {ReadSettings<LearningSettings>(resolved.at("learning"), ResolvedOrigin("learning")),
+          ReadSettings<ScanSettings>(resolved.at("scan"), ResolvedOrigin("scan")),
+          ReadSettings<IntrinsicShapeSettings>(resolved.at("fit"), ResolvedOrigin("fit"))};
+}
 
 std::vector<SurfaceStrip> Strips(const std::string& person, const ScanResult& scan,
                                  const IntrinsicShape& fit, const LearnedModel& model,
@@ -62,61 +74,40 @@ std::vector<SurfaceStrip> Strips(const std::string& person, const ScanResult& sc
             {"error, from behind", 180.0, {errors}}}}};
 }
 
-Json Resolved(const ShapeStudy& study, std::size_t scan) {
-  return {{"learning", WriteSettings(study.learning)},
-          {"scan", WriteSettings(study.scans[scan])},
-          {"fit", WriteSettings(study.settings.fit)}};
+Json SummaryOf(const PlannedRun& run, const ScanResult& scan, const IntrinsicShape& fit,
+               double fit_ms, const BodyModel& fitted, const BodyModel& truth,
+               const ShapeError& error) {
+  return {{"run_id", run.run_id},
+          {"variant", run.variant},
+          {"scene", run.scene},
+          {"method", run.method},
+          {"surface_mean_m", error.surface_mean_m},
+          {"surface_max_m", error.surface_max_m},
+          {"vertex_mean_m", error.vertex_mean_m},
+          {"joint_error_mean_m", error.joint_mean_m},
+          {"height_error_m", std::abs(fitted.attributes.height_m - truth.attributes.height_m)},
+          {"weight_error_kg", std::abs(fitted.attributes.weight_kg - truth.attributes.weight_kg)},
+          {"scan_to_truth_mean_m", scan.truth->scan_to_truth.mean_m},
+          {"scan_to_truth_max_m", scan.truth->scan_to_truth.max_m},
+          {"camera_error_max_m", scan.truth->path.translation_max_m},
+          {"scan_s", 1e-3 * (scan.fuse_ms + scan.extract_ms)},
+          {"fit_ms", fit_ms},
+          {"iterations", fit.iterations}};
 }
 
-RunRecord CarryOut(const ShapeStudy& study, std::size_t scan_number, int person_number,
-                   const std::string& experiment, const std::string& run_id,
-                   const fs::path& run_folder) {
-  const LearnedModel model = ObtainLearnedModel(study.learning, study.work.learned);
-  const BodyModel truth =
-      Refine(Population(study.learning.database.population).Subject(person_number),
-             study.learning.database.mesh);
-  const std::string person = SubjectName(person_number);
-  const ScanResult scan = ScanPerson(study.scans[scan_number], truth);
-  const ScannedSurface surface = SurfaceOf(scan.surface.mesh);
-  const Stopwatch watch;
-  const IntrinsicShape fit = FitIntrinsicShape(model.space, model.tracking_space, surface,
-                                               truth.attributes, study.settings.fit);
-  const double fit_ms = watch.ElapsedMs();
-  const BodyModel fitted = PlacedBody(model.space, fit.theta, truth.attributes.sex);
-  const ShapeError error = CompareShapes(fitted, truth);
-  WriteSurfaceStrips(run_folder, Strips(person, scan, fit, model, truth, error));
-
-  RunRecord record;
-  record.run_id = run_id;
-  record.experiment = experiment;
-  record.variant = study.settings.scans[scan_number].name;
-  record.scene = person;
-  record.method = kShapeMethod;
-  record.config = WithPortablePaths(Resolved(study, scan_number));
-  record.provenance = TimedProvenance();
-  record.summary = {
-      {"run_id", run_id},
-      {"variant", record.variant},
-      {"scene", person},
-      {"method", kShapeMethod},
-      {"surface_mean_m", error.surface_mean_m},
-      {"surface_max_m", error.surface_max_m},
-      {"vertex_mean_m", error.vertex_mean_m},
-      {"joint_error_mean_m", error.joint_mean_m},
-      {"height_error_m", std::abs(fitted.attributes.height_m - truth.attributes.height_m)},
-      {"weight_error_kg", std::abs(fitted.attributes.weight_kg - truth.attributes.weight_kg)},
-      {"scan_to_truth_mean_m", scan.truth->scan_to_truth.mean_m},
-      {"scan_to_truth_max_m", scan.truth->scan_to_truth.max_m},
-      {"camera_error_max_m", scan.truth->path.translation_max_m},
-      {"scan_s", 1e-3 * (scan.fuse_ms + scan.extract_ms)},
-      {"fit_ms", fit_ms},
-      {"iterations", fit.iterations}};
-  return record;
-}
-
-std::string RunId(const ShapeStudy& study, std::size_t scan, int person) {
-  return fmt::format("{}.s{:03}.{}", study.settings.scans[scan].name, person,
-                     SettingsHash(Resolved(study, scan)).substr(0, 8));
+// One person and one way to scan.
+PlannedRun Planned(const ShapeRun& settings, const std::string& variant, int person) {
+  PlannedRun run;
+  run.kind = kShapeKind;
+  run.resolved = ToJson(settings);
+  run.key = WorkKey(run.resolved);
+  run.run_id =
+      fmt::format("{}.s{:03}.{}", variant, person, SettingsHash(run.resolved).substr(0, 8));
+  run.variant = variant;
+  run.scene = SubjectName(person);
+  run.method = kShapeMethod;
+  run.person = person;
+  return run;
 }
 
 }  // namespace
@@ -124,20 +115,23 @@ std::string RunId(const ShapeStudy& study, std::size_t scan, int person) {
 void ScanVariant::Describe(Fields& f) {
   f.Text("name", name,
          {.meaning = "name of the variant: letters, digits, . _ -", .required = true});
-  f.File("scan", scan, {.meaning = "scan file; its person is replaced", .required = true});
+  f.File("scan", scan,
+         {.meaning = "scan file; its person is replaced by each of the people", .required = true});
 }
 
 void ShapeStudySettings::Describe(Fields& f) {
-  f.Text("kind", kind, {.meaning = "intrinsic_shape", .required = true});
+  f.Text("kind", kind, {.meaning = "kind of the experiment: intrinsic_shape", .required = true});
   f.Text("title", title, {.meaning = "title of the report", .required = true});
-  f.Text("description", description, {.meaning = "what the experiment shows"});
+  f.Text("description", description,
+         {.meaning = "what the experiment shows, printed at the head of the report"});
   f.File("learning", learning, {.meaning = "learning file", .required = true});
-  f.List("scans", scans, {.meaning = "how people are scanned", .required = true});
+  f.List("scans", scans, {.meaning = "ways in which each person is scanned", .required = true});
   f.Integer(
       "people", people,
-      {.meaning = "how many of the held-out people, from the first", .min = 1, .max = 100000});
+      {.meaning = "number of held-out people, counted from the first", .min = 1, .max = 100000});
   f.Section("fit", fit, {.meaning = "how the shape is fitted to the scan"});
-  f.List("expectations", expectations, {.meaning = "numbers of the paper to print beside ours"});
+  f.List("expectations", expectations,
+         {.meaning = "values of the paper that the report prints beside ours"});
 }
 
 ShapeError CompareShapes(const BodyModel& fitted, const BodyModel& truth) {
@@ -170,41 +164,55 @@ ShapeError CompareShapes(const BodyModel& fitted, const BodyModel& truth) {
 }
 
 Experiment PlanShapeStudy(const fs::path& file, const WorkFolders& work) {
-  const auto study = std::make_shared<ShapeStudy>();
-  study->settings = ReadSettingsFile<ShapeStudySettings>(file);
-  study->learning = ReadLearningSettings(study->settings.learning);
-  study->work = work;
-  if (study->settings.people > study->learning.held_out) {
-    throw ConfigError(fmt::format("{}: people: {} of {} held-out subjects", file.string(),
-                                  study->settings.people, study->learning.held_out));
-  }
-  for (const ScanVariant& scan : study->settings.scans)
-    study->scans.push_back(ReadScanSettings(scan.scan));
-
+  const auto settings = ReadSettingsFile<ShapeStudySettings>(file);
+  const LearningSettings learning = ReadLearningSettings(settings.learning);
+  RequireEnoughHeldOut(settings.people, learning, file);
   Experiment experiment;
   experiment.record.name = ConfigName(file);
-  experiment.record.title = study->settings.title;
-  experiment.record.description = study->settings.description;
-  for (const ExpectationSettings& e : study->settings.expectations)
+  experiment.record.title = settings.title;
+  experiment.record.description = settings.description;
+  for (const ExpectationSettings& e : settings.expectations)
     experiment.record.expectations.push_back(e.AsRecorded());
-  const int first = study->learning.database.population.subjects - study->learning.held_out;
-  for (std::size_t scan = 0; scan < study->scans.size(); ++scan) {
-    for (int person = first; person < first + study->settings.people; ++person) {
-      const std::string run_id = RunId(*study, scan, person);
-      experiment.record.run_ids.push_back(run_id);
-      PlannedRun run;
-      run.run_id = run_id;
-      run.key = WorkKey(Resolved(*study, scan));
-      run.carry_out = [study, scan, person, run_id,
-                       name = experiment.record.name](const fs::path& folder) {
-        return CarryOut(*study, scan, person, name, run_id, folder);
-      };
-      run.method = kShapeMethod;
-      run.variant = study->settings.scans[scan].name;
+  const int first = learning.database.population.subjects - learning.held_out;
+  for (const ScanVariant& variant : settings.scans) {
+    const ShapeRun shape_run{learning, ReadScanSettings(variant.scan), settings.fit};
+    for (int person = first; person < first + settings.people; ++person) {
+      PlannedRun run = Planned(shape_run, variant.name, person);
+      run.experiment = experiment.record.name;
+      run.work = work;
+      experiment.record.run_ids.push_back(run.run_id);
       experiment.runs.push_back(std::move(run));
     }
   }
   return experiment;
+}
+
+RunRecord CarryOutShapeRun(const PlannedRun& run, const fs::path& run_folder) {
+  const ShapeRun settings = ReadShapeRun(run.resolved);
+  const LearnedModel model = ObtainLearnedModel(settings.learning, run.work.learned);
+  const BodyModel truth =
+      Refine(Population(settings.learning.database.population).Subject(run.person),
+             settings.learning.database.mesh);
+  const ScanResult scan = ScanPerson(settings.scan, truth);
+  const ScannedSurface surface = SurfaceOf(scan.surface.mesh);
+  const Stopwatch watch;
+  const IntrinsicShape fit =
+      FitIntrinsicShape(model.space, model.tracking_space, surface, truth.attributes, settings.fit);
+  const double fit_ms = watch.ElapsedMs();
+  const BodyModel fitted = PlacedBody(model.space, fit.theta, truth.attributes.sex);
+  const ShapeError error = CompareShapes(fitted, truth);
+  WriteSurfaceStrips(run_folder, Strips(run.scene, scan, fit, model, truth, error));
+
+  RunRecord record;
+  record.run_id = run.run_id;
+  record.experiment = run.experiment;
+  record.variant = run.variant;
+  record.scene = run.scene;
+  record.method = run.method;
+  record.config = WithPortablePaths(run.resolved);
+  record.provenance = TimedProvenance();
+  record.summary = SummaryOf(run, scan, fit, fit_ms, fitted, truth, error);
+  return record;
 }
 
 }  // namespace vitruvia

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "core/error.h"
+#include "experiments/plan/run_plan.h"
 #include "experiments/run/runner.h"
-#include "experiments/run/tracking_runs.h"
 #include "math/statistics.h"
 
 namespace vitruvia {
@@ -65,7 +65,7 @@ class Search {
     settings.variants = models;
     const ExperimentPlan plan = PlanExperiment(settings, file_);
     const std::vector<PlannedRun> runs =
-        TrackingRuns(plan, folder_, {folder_ / "sequences", folder_ / "learned"});
+        PlannedRuns(plan, {folder_ / "sequences", folder_ / "learned"});
     const ExperimentOutcome outcome = CarryOutRuns(runs, settings_.jobs, folder_);
     if (outcome.failed > 0) {
       throw RunError(fmt::format("sufficient: {} of {} runs failed; see {}", outcome.failed,

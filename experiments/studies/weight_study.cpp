@@ -1,11 +1,11 @@
 #include "experiments/studies/weight_study.h"
 
 #include <algorithm>
-#include <memory>
 
 #include "config/build_cache.h"
 #include "core/build_info.h"
 #include "core/error.h"
+#include "experiments/studies/held_out_people.h"
 #include "learning/skinning/fit_errors.h"
 #include "math/statistics.h"
 #include "records/surface_strips.h"
@@ -15,13 +15,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kWeightMethod = "skinning_weights";
-constexpr float kPictureHeight_m = 1.0f;  // of a pose's middle: poses are drawn side by side
-
-struct WeightStudy {
-  WeightStudySettings settings;
-  LearningSettings learning;
-  WorkFolders work;
-};
+constexpr const char* kHeldOut = "held_out";  // the only variant
+constexpr float kPictureHeight_m = 1.0f;      // of a pose's middle: poses are drawn side by side
 
 std::vector<Vector3f> Centred(std::vector<Vector3f> vertices) {
   Vector3d mean = Vector3d::Zero();
@@ -53,97 +48,115 @@ SurfaceStrip Strip(int pose, const std::vector<Vector3f>& truth, const std::vect
        {"error, from behind", 180.0, {errors}}}};
 }
 
-RunRecord CarryOut(const WeightStudy& study, int person_number, const std::string& experiment,
-                   const std::string& run_id, const fs::path& run_folder) {
-  const LearnedModel model = ObtainLearnedModel(study.learning, study.work.learned);
-  const BodyModel& reference = model.space.reference;
-  const std::string person = SubjectName(person_number);
-  const ControlBody body = Population(study.learning.database.population).Subject(person_number);
-  const skinning::Examples examples{Refine(body, study.learning.database.mesh).rest.vertices,
-                                    MakePoseExamples(study.learning.database, person, body).poses};
-  const skinning::FittedTransforms fitted = skinning::FitTransforms(
-      examples, reference.weights, kBoneCount, study.learning.weights.threads);
-  const auto errors_m = skinning::VertexErrors(examples, reference.weights, fitted.poses);
-
-  std::vector<double> all;
-  for (const auto& pose : errors_m) all.insert(all.end(), pose.begin(), pose.end());
+// The pictures of `count` poses, evenly spread over all.
+std::vector<SurfaceStrip> Strips(const skinning::Examples& examples,
+                                 const std::vector<BoneTransforms>& transforms,
+                                 const std::vector<std::vector<float>>& errors_m,
+                                 const BodyModel& reference, std::size_t count) {
   std::vector<SurfaceStrip> strips;
-  const auto shown = std::min<std::size_t>(study.settings.picture_poses, examples.poses.size());
+  const std::size_t shown = std::min(count, examples.poses.size());
   for (std::size_t i = 0; i < shown; ++i) {
     const std::size_t pose = i * examples.poses.size() / shown;
     std::vector<Vector3f> fit;
-    SkinLinear(examples.rest, reference.weights, fitted.poses[pose], fit);
+    SkinLinear(examples.rest, reference.weights, transforms[pose], fit);
     strips.push_back(
         Strip(static_cast<int>(pose), examples.poses[pose], fit, errors_m[pose], reference));
   }
-  WriteSurfaceStrips(run_folder, strips);
+  return strips;
+}
 
+RunRecord RecordOf(const PlannedRun& run) {
   RunRecord record;
-  record.run_id = run_id;
-  record.experiment = experiment;
-  record.variant = "held_out";
-  record.scene = person;
-  record.method = kWeightMethod;
-  record.config = WithPortablePaths({{"learning", WriteSettings(study.learning)}});
+  record.run_id = run.run_id;
+  record.experiment = run.experiment;
+  record.variant = run.variant;
+  record.scene = run.scene;
+  record.method = run.method;
+  record.config = WithPortablePaths({{"learning", run.resolved.at("learning")}});
   record.provenance = TimedProvenance();
-  record.summary = {{"run_id", run_id},
-                    {"variant", record.variant},
-                    {"scene", person},
-                    {"method", kWeightMethod},
-                    {"poses", examples.poses.size()},
-                    {"surface_mean_m", Mean(all)},
-                    {"surface_p95_m", Quantile(all, 0.95)},
-                    {"surface_max_m", Maximum(all)},
-                    {"surface_rmse_m", fitted.rmse_m}};
+  record.summary = {{"run_id", run.run_id},
+                    {"variant", run.variant},
+                    {"scene", run.scene},
+                    {"method", run.method}};
   return record;
+}
+
+PlannedRun Planned(const LearningSettings& learning, int pictures, int person) {
+  PlannedRun run;
+  run.kind = kWeightKind;
+  run.resolved = {{"learning", WriteSettings(learning)}, {"pictures", pictures}};
+  run.key = WorkKey(run.resolved);
+  run.run_id = fmt::format("{}.{}.{}", kHeldOut, SubjectName(person),
+                           SettingsHash(run.resolved["learning"]).substr(0, 8));
+  run.variant = kHeldOut;
+  run.scene = SubjectName(person);
+  run.method = kWeightMethod;
+  run.person = person;
+  return run;
 }
 
 }  // namespace
 
 void WeightStudySettings::Describe(Fields& f) {
-  f.Text("kind", kind, {.meaning = "skinning_weights", .required = true});
+  f.Text("kind", kind, {.meaning = "kind of the experiment: skinning_weights", .required = true});
   f.Text("title", title, {.meaning = "title of the report", .required = true});
-  f.Text("description", description, {.meaning = "what the experiment shows"});
+  f.Text("description", description,
+         {.meaning = "what the experiment shows, printed at the head of the report"});
   f.File("learning", learning, {.meaning = "learning file", .required = true});
   f.Integer(
       "people", people,
-      {.meaning = "how many of the held-out people, from the first", .min = 1, .max = 100000});
-  f.Integer("picture_poses", picture_poses,
-            {.meaning = "how many poses of each person the report shows", .min = 1, .max = 100});
-  f.List("expectations", expectations, {.meaning = "numbers of the paper to print beside ours"});
+      {.meaning = "number of held-out people, counted from the first", .min = 1, .max = 100000});
+  f.Integer(
+      "picture_poses", picture_poses,
+      {.meaning = "number of poses of each person that the report shows", .min = 1, .max = 100});
+  f.List("expectations", expectations,
+         {.meaning = "values of the paper that the report prints beside ours"});
 }
 
 Experiment PlanWeightStudy(const fs::path& file, const WorkFolders& work) {
-  const auto study = std::make_shared<WeightStudy>();
-  study->settings = ReadSettingsFile<WeightStudySettings>(file);
-  study->learning = ReadLearningSettings(study->settings.learning);
-  study->work = work;
-  if (study->settings.people > study->learning.held_out) {
-    throw ConfigError(fmt::format("{}: people: {} of {} held-out subjects", file.string(),
-                                  study->settings.people, study->learning.held_out));
-  }
+  const auto settings = ReadSettingsFile<WeightStudySettings>(file);
+  const LearningSettings learning = ReadLearningSettings(settings.learning);
+  RequireEnoughHeldOut(settings.people, learning, file);
   Experiment experiment;
   experiment.record.name = ConfigName(file);
-  experiment.record.title = study->settings.title;
-  experiment.record.description = study->settings.description;
-  for (const ExpectationSettings& e : study->settings.expectations)
+  experiment.record.title = settings.title;
+  experiment.record.description = settings.description;
+  for (const ExpectationSettings& e : settings.expectations)
     experiment.record.expectations.push_back(e.AsRecorded());
-  const Json resolved = WriteSettings(study->learning);
-  const std::string hash = SettingsHash(resolved).substr(0, 8);
-  const int first = study->learning.database.population.subjects - study->learning.held_out;
-  for (int person = first; person < first + study->settings.people; ++person) {
-    const std::string run_id = fmt::format("held_out.{}.{}", SubjectName(person), hash);
-    experiment.record.run_ids.push_back(run_id);
-    PlannedRun run;
-    run.run_id = run_id;
-    run.key = WorkKey({{"learning", resolved}, {"pictures", study->settings.picture_poses}});
-    run.carry_out = [study, person, run_id, name = experiment.record.name](const fs::path& folder) {
-      return CarryOut(*study, person, name, run_id, folder);
-    };
-    run.method = kWeightMethod;
+  const int first = learning.database.population.subjects - learning.held_out;
+  for (int person = first; person < first + settings.people; ++person) {
+    PlannedRun run = Planned(learning, settings.picture_poses, person);
+    run.experiment = experiment.record.name;
+    run.work = work;
+    experiment.record.run_ids.push_back(run.run_id);
     experiment.runs.push_back(std::move(run));
   }
   return experiment;
+}
+
+RunRecord CarryOutWeightRun(const PlannedRun& run, const fs::path& run_folder) {
+  const auto learning =
+      ReadSettings<LearningSettings>(run.resolved.at("learning"), ResolvedOrigin("learning"));
+  const LearnedModel model = ObtainLearnedModel(learning, run.work.learned);
+  const BodyModel& reference = model.space.reference;
+  const ControlBody body = Population(learning.database.population).Subject(run.person);
+  const skinning::Examples examples{Refine(body, learning.database.mesh).rest.vertices,
+                                    MakePoseExamples(learning.database, run.scene, body).poses};
+  const skinning::FittedTransforms fitted =
+      skinning::FitTransforms(examples, reference.weights, kBoneCount, learning.weights.threads);
+  const auto errors_m = skinning::VertexErrors(examples, reference.weights, fitted.poses);
+  WriteSurfaceStrips(run_folder, Strips(examples, fitted.poses, errors_m, reference,
+                                        run.resolved.at("pictures").get<std::size_t>()));
+
+  std::vector<double> all;
+  for (const auto& pose : errors_m) all.insert(all.end(), pose.begin(), pose.end());
+  RunRecord record = RecordOf(run);
+  record.summary["poses"] = examples.poses.size();
+  record.summary["surface_mean_m"] = Mean(all);
+  record.summary["surface_p95_m"] = Quantile(all, 0.95);
+  record.summary["surface_max_m"] = Maximum(all);
+  record.summary["surface_rmse_m"] = fitted.rmse_m;
+  return record;
 }
 
 }  // namespace vitruvia

@@ -1,5 +1,7 @@
 #include "analysis/experiment_runs.h"
 
+#include "core/error.h"
+
 namespace vitruvia {
 namespace fs = std::filesystem;
 
@@ -21,7 +23,11 @@ ReportedExperiment ReadExperiment(const fs::path& folder) {
     } else if (!fs::exists(folder / run_id / "record.json")) {
       run.problem = "missing: it has not been run, or was interrupted";
     } else {
-      run.record = ReadRunRecord(folder, run_id);
+      try {
+        run.record = ReadRunRecord(folder, run_id);
+      } catch (const DataError& error) {
+        run.problem = std::string("damaged: ") + error.what();
+      }
     }
     experiment.runs.push_back(std::move(run));
   }

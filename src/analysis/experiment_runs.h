@@ -24,7 +24,8 @@ struct ReportedExperiment {
   std::vector<const RunRecord*> finished() const;
 };
 
-// DataError if the folder holds no experiment, or a record that is damaged rather than missing.
+// A run that failed, is missing or has a damaged record is there with its problem. DataError if the
+// folder holds no experiment.
 ReportedExperiment ReadExperiment(const std::filesystem::path& folder);
 
 }  // namespace vitruvia

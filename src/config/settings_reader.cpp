@@ -38,6 +38,11 @@ std::filesystem::path ResolvedPath(const std::string& text, const std::string& w
       throw ConfigError(fmt::format("{}: {} needs the environment variable {}, which is not set",
                                     where, text, name));
     }
+    if (!std::filesystem::exists(value)) {
+      throw ConfigError(fmt::format(
+          "{}: {} needs the environment variable {}, which names {}, and that is not there", where,
+          text, name, value));
+    }
     expanded = value + text.substr(end);
   }
   std::filesystem::path path(expanded);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstring>
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <thread>
 #include <unistd.h>
 #include <utility>
@@ -16,7 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::chrono::milliseconds kAskAgainAfter{20};
-constexpr mode_t kLockFileMode = 0666;  // less the umask, as for any new file
+constexpr mode_t kLockFileMode = 0666;
 
 struct flock WholeFile(LockKind kind) {
   struct flock range {};
@@ -29,10 +30,18 @@ struct flock WholeFile(LockKind kind) {
   throw RunError(fmt::format("{}: cannot be locked: {}", file.string(), std::strerror(error)));
 }
 
+// Does not ask to create a file that is there: in folders such as /tmp the kernel may refuse that
+// for files of other users (fs.protected_regular).
+int OpenOrCreate(const fs::path& file) {
+  const int descriptor = open(file.c_str(), O_RDWR | O_CLOEXEC);
+  if (descriptor >= 0 || errno != ENOENT) return descriptor;
+  return open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kLockFileMode);
+}
+
 }  // namespace
 
 std::optional<FileLock> FileLock::Try(const fs::path& file, LockKind kind) {
-  const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kLockFileMode);
+  const int descriptor = OpenOrCreate(file);
   if (descriptor < 0) FailToLock(file, errno);
   FileLock lock(descriptor);
   const struct flock range = WholeFile(kind);
@@ -60,7 +69,7 @@ bool FileLock::Held(const fs::path& file) {
 
 FileLock::~FileLock() {
   if (descriptor_ < 0) return;
-  // Closing would do, were there no copies of the descriptor in processes forked meanwhile.
+  // Closing alone would not end a lock whose descriptor another process has inherited.
   struct flock range {};
   range.l_type = F_UNLCK;
   range.l_whence = SEEK_SET;
@@ -73,6 +82,23 @@ FileLock::FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.
 FileLock& FileLock::operator=(FileLock&& other) noexcept {
   std::swap(descriptor_, other.descriptor_);
   return *this;
+}
+
+void MakeLockFileForAllUsers(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) {
+    // Under a name of its own first, so that nobody meets the file before its mode is set.
+    const fs::path mine = fmt::format("{}.{}", file.string(), getpid());
+    const int descriptor = open(mine.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, kLockFileMode);
+    if (descriptor < 0) FailToLock(file, errno);
+    const bool made = fchmod(descriptor, kLockFileMode) == 0 &&
+                      (link(mine.c_str(), file.c_str()) == 0 || errno == EEXIST);
+    const int error = errno;
+    close(descriptor);
+    unlink(mine.c_str());
+    if (!made) FailToLock(file, error);
+  }
+  if (access(file.c_str(), R_OK | W_OK) != 0) FailToLock(file, errno);
 }
 
 }  // namespace vitruvia

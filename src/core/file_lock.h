@@ -1,9 +1,9 @@
 // Locks between processes that share a folder, on one machine or over a network file system.
 //
-// A lock belongs to a file and ends with the process that holds it, however that ends: nothing has
-// to be cleaned up after kill -9. Linux's open file description locks: two locks of one process
-// exclude each other too, and a process forked while a lock is held shares it. The file itself
-// stays, empty.
+// A lock belongs to a file and ends when the last process that holds it ends, however it ends:
+// nothing has to be cleaned up after kill -9. These are Linux's open file description locks: two
+// locks of one process exclude each other too, and a process that inherits the descriptor shares
+// the lock. The file itself stays, empty.
 #pragma once
 
 #include <filesystem>
@@ -18,20 +18,27 @@ enum class LockKind {
 
 class FileLock {
  public:
-  // Nothing if another holder is in the way. RunError if the file cannot be opened or locked.
+  // Nothing if another holder is in the way. RunError if the file cannot be opened, made or locked.
   static std::optional<FileLock> Try(const std::filesystem::path& file, LockKind kind);
-  // Waits until the lock is free. Stops with Error(kInterrupted) if that was asked for.
+  // Waits until the lock is free. Throws Error(kInterrupted) when the user asks to stop.
   static FileLock Wait(const std::filesystem::path& file, LockKind kind);
-  // Whether anybody holds the lock; asking disturbs nobody.
+  // Whether any process holds the lock; asking takes no lock.
   static bool Held(const std::filesystem::path& file);
 
   ~FileLock();
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept;
 
+  // For a child process to inherit, so that the lock lasts as long as the child. Closed on exec.
+  int descriptor() const { return descriptor_; }
+
  private:
   explicit FileLock(int descriptor) : descriptor_(descriptor) {}
   int descriptor_ = -1;
 };
+
+// Makes sure that the lock file exists and that every user of the machine may lock it, whatever the
+// umask. RunError if it cannot be made, or belongs to someone who keeps others out.
+void MakeLockFileForAllUsers(const std::filesystem::path& file);
 
 }  // namespace vitruvia

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -79,6 +80,17 @@ void MakeFolder(const fs::path& folder) {
   }
 }
 
+fs::path TemporaryDirectory() {
+  const char* variable = std::getenv("TMPDIR");
+  const bool is_set = variable != nullptr && *variable != '\0';
+  const fs::path folder = is_set ? variable : "/tmp";
+  std::error_code ignored;
+  if (fs::is_directory(folder, ignored)) return folder;
+  throw RunError(fmt::format(
+      "{}{}: expected a folder for temporary files, found none; make it, or set TMPDIR to another",
+      is_set ? "TMPDIR=" : "", folder.string()));
+}
+
 void RemoveUnfinished(const fs::path& destination) {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(destination.parent_path(), ignored)) {
@@ -125,8 +137,7 @@ StagedFolder::~StagedFolder() {
 }
 
 void StagedFolder::Commit() {
-  // The old folder steps aside first and is removed last, so that either it or the new one is
-  // whole.
+  // The old folder is renamed first and removed last, so that at any time one of the two is whole.
   fs::path old = staging_;
   old += kOldEnd;
   std::error_code error;

@@ -17,14 +17,18 @@ void WriteWholeFile(const std::filesystem::path& file, std::string_view content)
 // RunError naming the folder and the reason if it neither exists nor can be made.
 void MakeFolder(const std::filesystem::path& folder);
 
-// Removes what a process that was killed left unfinished beside the destination, a file or a folder
-// that nobody else may be writing now.
+// The folder for temporary files: $TMPDIR, or /tmp without it. RunError naming the variable if that
+// is no folder.
+std::filesystem::path TemporaryDirectory();
+
+// Removes what a killed process left unfinished beside the destination, a file or a folder. The
+// caller makes sure that no other process is writing the destination.
 void RemoveUnfinished(const std::filesystem::path& destination);
 
-// A folder that is filled under a temporary name beside its destination and appears there only on
-// Commit(); an uncommitted one is removed again. An existing destination is replaced on Commit(),
-// but only one that is empty or holds `mark`, a file that every folder of this kind has: a mistyped
-// path must not cost anyone a folder of other things. RunError at once otherwise.
+// A folder that is filled under a temporary name beside its destination and moved there by
+// Commit(); without Commit() it is removed again. Commit() replaces an existing destination, but
+// only one that is empty or holds `mark`, a file that every folder of this kind has: a mistyped
+// path must not delete a folder of other things. Otherwise the constructor throws RunError.
 class StagedFolder {
  public:
   StagedFolder(std::filesystem::path destination, const std::string& mark);

@@ -1,17 +1,23 @@
 // Messages for people on standard error.
 #pragma once
 
-#include <cstdio>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 namespace vitruvia {
 
-// That a message cannot be written (a log on a full disk) must not end the work that it is about.
+// Writes the text in one piece, on a line of its own if a progress bar is being drawn. A message
+// that cannot be written (a log on a full disk) is dropped: it must not end the work it is about.
+void WriteMessage(std::string_view text);
+
 template <class... Args>
 void PrintMessage(fmt::format_string<Args...> text, Args&&... args) {
-  std::fputs(fmt::format(text, std::forward<Args>(args)...).c_str(), stderr);
+  WriteMessage(fmt::format(text, std::forward<Args>(args)...));
 }
+
+// Draws a progress bar over the last one on the terminal's current line.
+void DrawBar(std::string_view bar);
 
 }  // namespace vitruvia

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdio>
 #include <unistd.h>
 #include <utility>
 
@@ -26,7 +25,7 @@ Progress::Progress(std::string label, int total)
 Progress::~Progress() {
   if (terminal_) {
     Draw();
-    PrintMessage("\n");
+    WriteMessage("");  // ends the bar's line
   } else {
     PrintMessage("{}: {}/{} in {:.1f} s\n", label_, done_, total_, watch_.ElapsedMs() / 1e3);
   }
@@ -41,9 +40,8 @@ void Progress::Advance(int steps) {
 void Progress::Draw() {
   last_drawn_ms_ = watch_.ElapsedMs();
   const int filled = std::min(kBarWidth, kBarWidth * done_ / total_);
-  PrintMessage("\r{:<40.40} [{:<{}}] {}/{} {:.0f} s ", label_, std::string(filled, '#'), kBarWidth,
-               done_, total_, last_drawn_ms_ / 1e3);
-  std::fflush(stderr);
+  DrawBar(fmt::format("{:<40.40} [{:<{}}] {}/{} {:.0f} s ", label_, std::string(filled, '#'),
+                      kBarWidth, done_, total_, last_drawn_ms_ / 1e3));
 }
 
 void RequestInterrupt() { interrupt_requested = true; }

@@ -1,4 +1,4 @@
-// Progress of long work: a bar where standard error is a terminal, one line at the end elsewhere.
+// Progress of long work on standard error: a bar on a terminal, one line at the end elsewhere.
 #pragma once
 
 #include <string>
@@ -26,9 +26,9 @@ class Progress {
   double last_drawn_ms_ = -1e9;
 };
 
-// Asks running work to stop at its next safe point (set by a signal handler).
+// Asks running work to stop at its next call of ThrowIfInterrupted. Safe in a signal handler.
 void RequestInterrupt();
-// Throws Error(kInterrupted) if a stop was asked for.
+// Throws Error(kInterrupted) after RequestInterrupt.
 void ThrowIfInterrupted();
 
 }  // namespace vitruvia

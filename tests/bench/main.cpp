@@ -1,5 +1,4 @@
-// vitruvia_bench [FOLDER [GROUP…]]: runs the benchmarks and writes FOLDER/summary.json, whole or
-// not at all. Without GROUP all are run; FOLDER is out/bench if not given.
+// vitruvia_bench: runs the benchmarks and writes their results to summary.json (see PrintHelp).
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -32,8 +31,25 @@ std::vector<Group> Chosen(std::span<char*> names) {
   return chosen;
 }
 
+constexpr const char* kDefaultFolder = "out/bench";
+
+void PrintHelp() {
+  fmt::print(
+      "vitruvia_bench [FOLDER [GROUP...]]\n\n"
+      "Runs benchmarks, prints a line for each, and writes FOLDER/summary.json, whole or not at "
+      "all.\nFOLDER: {} if it is not given. GROUP: all if none is named; there are:\n",
+      kDefaultFolder);
+  for (const Group& group : Groups()) fmt::print("  {}\n", group.name);
+  fmt::print("Exit codes: 0 success, 2 bad arguments, 4 not writable, 1 internal error.\n");
+}
+
 void Run(std::span<char*> arguments) {
-  const fs::path folder = arguments.empty() ? fs::path("out/bench") : fs::path(arguments[0]);
+  for (const std::string_view argument : arguments) {
+    if (argument == "-h" || argument == "--help") return PrintHelp();
+    if (argument.starts_with('-'))
+      throw ConfigError(fmt::format("{}: no such option; --help says what there is", argument));
+  }
+  const fs::path folder = arguments.empty() ? kDefaultFolder : fs::path(arguments[0]);
   const std::vector<Group> groups = Chosen(arguments.empty() ? arguments : arguments.subspan(1));
   Json rows = Json::array();
   for (const Group& group : groups) {

@@ -1,8 +1,15 @@
 #include "core/build_info.h"
 
+#include <cstdlib>
+#include <filesystem>
+
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include "core/files.h"
+#include "tests/support/temporary_folder.h"
 
 namespace vitruvia {
 namespace {
@@ -30,6 +37,29 @@ TEST(BuildInfo, NamesAVersionOfEveryLibrary) {
     EXPECT_THAT(libraries, HasSubstr(name));
   }
   EXPECT_THAT(libraries, Not(HasSubstr(" ,")));  // a name without a version
+}
+
+// The commit that the build would write for sources in that folder.
+std::string CommitOf(const std::string& sources, const std::filesystem::path& header) {
+  const std::string command =
+      fmt::format("{} -DSOURCE_DIR={} -DOUTPUT={} -P {}/cmake/WriteCommit.cmake", VITRUVIA_CMAKE,
+                  sources, header.string(), VITRUVIA_SOURCE_DIR);
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  const std::string text = ReadWholeFile(header);
+  const std::size_t begin = text.find('"') + 1;
+  return text.substr(begin, text.rfind('"') - begin);
+}
+
+TEST(BuildInfo, AnArchiveInsideAnotherRepositoryHasNoCommit) {
+  if (std::system("git --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "git is not installed";
+  const TemporaryFolder outer;
+  const std::string commit = fmt::format(
+      "cd {} && git init -q && git -c user.name=a -c user.email=a@b.c commit -q --allow-empty -m x "
+      "&& mkdir inner",
+      outer.path().string());
+  ASSERT_EQ(std::system(commit.c_str()), 0);
+  EXPECT_THAT(CommitOf(outer.path().string(), outer / "outer.h"), MatchesRegex("[0-9a-f]+"));
+  EXPECT_EQ(CommitOf((outer / "inner").string(), outer / "inner.h"), "unknown");
 }
 
 TEST(Provenance, HoldsAllOfIt) {

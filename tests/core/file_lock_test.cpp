@@ -1,6 +1,7 @@
 #include "core/file_lock.h"
 
 #include <csignal>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -70,6 +71,22 @@ TEST_F(Locks, AreReleasedAlthoughAForkedProcessStillHasACopy) {
   EXPECT_FALSE(FileLock::Held(file_));
   kill(copy, SIGKILL);
   waitpid(copy, nullptr, 0);
+}
+
+TEST_F(Locks, OfAllUsersMayBeTakenByAllWhateverTheUmask) {
+  const mode_t before = umask(077);
+  MakeLockFileForAllUsers(file_);
+  umask(before);
+  EXPECT_EQ(std::filesystem::status(file_).permissions(), std::filesystem::perms{0666});
+  const std::optional<FileLock> lock = FileLock::Try(file_, LockKind::kExclusive);
+  ASSERT_TRUE(lock.has_value());
+  MakeLockFileForAllUsers(file_);  // leaves a file that is there, and its lock, as they are
+  EXPECT_TRUE(FileLock::Held(file_));
+  int files = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+    ++files;
+  EXPECT_EQ(files, 1);  // no temporary one is left
+  EXPECT_THROW(MakeLockFileForAllUsers(folder_ / "none" / "lock"), RunError);
 }
 
 TEST_F(Locks, OfFoldersThatAreNotThereAreRefused) {

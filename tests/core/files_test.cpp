@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <functional>
 #include <string>
 #include <unistd.h>
@@ -162,6 +163,18 @@ TEST(StagedFolder, NamesADestinationThatCannotBe) {
   WriteWholeFile(folder / "file", "x");
   EXPECT_THAT(MessageOf<RunError>([&] { StagedFolder(folder / "file/below/result", "mark"); }),
               HasSubstr((folder / "file/below").string() + ": folder cannot be made"));
+}
+
+TEST(TemporaryDirectory, IsThatOfTheVariableAndNamesItIfThereIsNone) {
+  const TemporaryFolder folder;
+  const char* variable = std::getenv("TMPDIR");
+  const std::string before = variable == nullptr ? "/tmp" : variable;
+  setenv("TMPDIR", folder.path().c_str(), 1);
+  EXPECT_EQ(TemporaryDirectory(), folder.path());
+  setenv("TMPDIR", (folder / "none").c_str(), 1);
+  EXPECT_THAT(MessageOf<RunError>([] { TemporaryDirectory(); }),
+              HasSubstr("TMPDIR=" + (folder / "none").string() + ": expected a folder"));
+  setenv("TMPDIR", before.c_str(), 1);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "core/files.h"
 #include "experiments/full_disk.h"
+#include "experiments/run/machine_lock.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -32,15 +33,15 @@ CallResult CallWithFullDisk(rlim_t largest_file_bytes, const std::vector<std::st
   std::vector<char*> argv = {const_cast<char*>(VITRUVIA_PROGRAM)};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
-  static const TemporaryFolder
-      locks;  // runs that somebody times on this machine are not waited for
+  // Runs that somebody times on this machine are not waited for.
+  static const TemporaryFolder locks;
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
   const pid_t process = fork();
   if (process == 0) {
     const rlimit limit{largest_file_bytes, largest_file_bytes};
     setrlimit(RLIMIT_FSIZE, &limit);
-    setenv("TMPDIR", locks.path().c_str(), 1);
+    setenv(kLockFolderVariable, locks.path().c_str(), 1);
     execv(VITRUVIA_PROGRAM, argv.data());
     _exit(-1);
   }

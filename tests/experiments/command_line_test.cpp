@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/files.h"
-#include "experiments/plan/experiment_config.h"
+#include "experiments/plan/run_plan.h"
 #include "scoring/score.h"
 
 namespace vitruvia {

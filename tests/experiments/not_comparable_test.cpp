@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "experiments/command_line.h"
-#include "experiments/plan/experiment_config.h"
+#include "experiments/plan/run_plan.h"
 
 namespace vitruvia {
 namespace {

@@ -4,7 +4,7 @@
 #include "config/build_cache.h"
 #include "core/files.h"
 #include "experiments/command_line.h"
-#include "experiments/plan/experiment_config.h"
+#include "experiments/plan/run_plan.h"
 
 namespace vitruvia {
 namespace {

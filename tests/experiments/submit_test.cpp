@@ -48,6 +48,19 @@ TEST_F(Submit, PrintsAScriptOfOneTaskForEachShard) {
   EXPECT_THAT(many.out, Not(HasSubstr(" -o ")));
 }
 
+TEST_F(Submit, PathsAreQuotedAsSlurmReadsThem) {
+  const std::string folder = files_.File("a \"folder\" 100% #x");
+  const CallResult call =
+      CallVitruvia({"submit", files_.File("seeds.json"), "-o", folder, "--print"});
+  ASSERT_EQ(call.code, 0) << call.error;
+  EXPECT_THAT(call.out, HasSubstr("#SBATCH --chdir=\"" + fs::current_path().string() + "\"\n"));
+  EXPECT_THAT(call.out,
+              HasSubstr("#SBATCH --output=\"" +
+                        files_.File("a \\\"folder\\\" 100%% #x/slurm-%A_%a.log") + "\"\n"));
+  ExpectRefusal({"submit", files_.File("seeds.json"), "-o", files_.File("a\\b"), "--print"},
+                ExitCode::kBadConfiguration, {"expected a path without backslashes"});
+}
+
 TEST_F(Submit, WhatCannotBeSubmittedIsRefused) {
   const std::string file = files_.File("seeds.json");
   ExpectRefusal({"submit", files_.File("none.json"), "--print"}, ExitCode::kBadConfiguration,
@@ -58,7 +71,8 @@ TEST_F(Submit, WhatCannotBeSubmittedIsRefused) {
   const std::string path = std::getenv("PATH");
   setenv("PATH", files_.path().c_str(), 1);
   ExpectRefusal({"submit", file, "-o", files_.File("out")}, ExitCode::kFailedRun,
-                {"sbatch cannot be started (is Slurm installed?)", "submit.sbatch is written"});
+                {"sbatch: cannot be started: No such file or directory (is Slurm installed?)",
+                 "the script is", "submit.sbatch"});
   setenv("PATH", path.c_str(), 1);
 }
 
@@ -68,18 +82,24 @@ TEST_F(Submit, ASlurmOfOneNodeCarriesItOutToTheSameResult) {
       GTEST_SKIP() << program << " is not installed (Debian: slurm-wlm, munge)";
   }
   const TemporaryFolder slurm;
+  const std::string folder = "slurm 100% done";
   const std::string command = fmt::format(
-      "TMPDIR={} {}/tests/experiments/one_node_slurm.sh {} {} submit {} -o {} --shards 2 >{} 2>&1",
+      "VITRUVIA_LOCK_DIR={} {}/tests/experiments/one_node_slurm.sh {} {} submit {} -o {} --shards "
+      "2 >{} 2>&1",
       slurm.path().string(), VITRUVIA_SOURCE_DIR, (slurm / "s").string(), VITRUVIA_PROGRAM,
-      files_.File("seeds.json"), files_.File("slurm"), files_.File("said"));
+      files_.File("seeds.json"), "'" + files_.File(folder) + "'", files_.File("said"));
   const int status = std::system(command.c_str());
   const std::string said = ReadWholeFile(files_ / "said");
   ASSERT_EQ(WEXITSTATUS(status), 0) << said;
   EXPECT_THAT(said, HasSubstr("Submitted batch job"));
   EXPECT_THAT(said, HasSubstr("3 runs in 2 tasks"));
   ASSERT_EQ(CallVitruvia({"run", files_.File("seeds.json"), "-o", files_.File("here")}).code, 0);
-  EXPECT_EQ(ResultOf(files_ / "slurm"), ResultOf(files_ / "here"));
-  EXPECT_TRUE(fs::exists(files_ / "slurm/report.html"));
+  EXPECT_EQ(ResultOf(files_ / folder), ResultOf(files_ / "here"));
+  EXPECT_TRUE(fs::exists(files_ / folder / "report.html"));
+  int logs = 0;
+  for (const auto& entry : fs::directory_iterator(files_ / folder))
+    logs += entry.path().extension() == ".log" ? 1 : 0;
+  EXPECT_EQ(logs, 2);  // one for each task
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "experiments/command_line.h"
-#include "experiments/plan/experiment_config.h"
+#include "experiments/plan/run_plan.h"
 
 namespace vitruvia {
 namespace {

@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/random.h"
-#include "experiments/plan/experiment_config.h"
+#include "experiments/plan/run_plan.h"
 #include "experiments/studies/experiment_kinds.h"
 #include "methods/dynamic/skeleton_file.h"
 #include "subjects/learned_model.h"
@@ -113,7 +113,7 @@ void ReadConfig(const fs::path& file, const std::string& kind, const fs::path& w
   } else if (kind == "skeletons") {
     dynamic::ReadSkeletonFile(file);
   } else {
-    PlanAnyExperiment(file, work / "out", {work / "sequences", work / "learned"});
+    PlanAnyExperiment(file, {work / "sequences", work / "learned"});
   }
 }
 

@@ -376,8 +376,10 @@ IntrinsicShape FitIntrinsicShape(const ShapeSpace& space, const ShapeSpace& trac
                                  const IntrinsicShapeSettings& settings) {
   CheckScan(scan, attributes);
   if (settings.components > space.components()) {
-    throw ConfigError(fmt::format("intrinsic shape: {} components, the space has {}",
-                                  settings.components, space.components()));
+    throw ConfigError(fmt::format(
+        "fit: components: expected at most the {} of the shape space, got {}; give settings with "
+        "fewer, or learn a space with more",
+        space.components(), settings.components));
   }
   return Fit(space, tracking, scan, attributes, settings).Run();
 }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "core/files.h"
 #include "methods/external/piped_program.h"
 
 namespace vitruvia::external {
@@ -26,7 +27,7 @@ constexpr std::size_t kShownOfLine = 80;
 class SubjectFolder {
  public:
   explicit SubjectFolder(const Subject& subject) {
-    std::string pattern = (fs::temp_directory_path() / "vitruvia-subject-XXXXXX").string();
+    std::string pattern = (TemporaryDirectory() / "vitruvia-subject-XXXXXX").string();
     if (mkdtemp(pattern.data()) == nullptr)
       throw RunError(fmt::format("{}: folder cannot be made", pattern));
     path_ = pattern;

@@ -1,29 +1,23 @@
-#include "experiments/run/tracking_runs.h"
+#include "experiments/run/tracking_run.h"
 
 #include <algorithm>
 
-#include "config/build_cache.h"
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/process_memory.h"
 #include "core/progress.h"
 #include "core/timer.h"
+#include "experiments/plan/run_plan.h"
 #include "scoring/score.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
-// The sequence of a scene, made unless the very same one is there already (same settings, same
-// input files, same build).
-KeptFolder SequenceOf(const RunPlan& run, const WorkFolders& work) {
-  return {work.sequences, run.scene, WriteSettings(run.scene_settings)};
-}
-
 fs::path ObtainSequence(const RunPlan& run, const WorkFolders& work) {
   if (!run.sequence.empty()) return run.sequence;
-  const KeptFolder kept = SequenceOf(run, work);
+  const KeptFolder kept = SequenceOf(run, work.sequences);
   kept.Obtain([&run](const fs::path& made) { SynthesizeSequence(run.scene_settings, made); });
   return kept.path();
 }
@@ -35,16 +29,18 @@ BodyModel ObtainSubject(const RunPlan& run, const SequenceReader& sequence,
   return sequence.subject();
 }
 
-RunRecord CarryOut(const RunPlan& run, const std::string& experiment, const fs::path& folder,
-                   const WorkFolders& work) {
-  const SequenceReader sequence(ObtainSequence(run, work));
+void Track(const RunPlan& run, const SequenceReader& sequence, const WorkFolders& work,
+           const fs::path& estimate_folder) {
   BodyModel subject = ObtainSubject(run, sequence, work);
   DamageSubject(run.faults.subject, subject);
   const auto damage = [&](DepthFrame& frame) {
     DamageFrame(run.faults.depth, sequence.info().depth_unit_m, run.seed, frame);
   };
-  TrackSequence(sequence, run.method, subject, damage, folder / run.run_id / "estimate");
+  TrackSequence(sequence, run.method, subject, damage, estimate_folder);
+}
 
+// What names and explains the run; scores are added to it.
+RunRecord RecordOf(const RunPlan& run, const std::string& experiment) {
   RunRecord record;
   record.run_id = run.run_id;
   record.experiment = experiment;
@@ -54,21 +50,17 @@ RunRecord CarryOut(const RunPlan& run, const std::string& experiment, const fs::
   record.seed = run.seed;
   record.config = WithPortablePaths(run.resolved);
   record.provenance = TimedProvenance();
-  record.sequence_folder = fs::absolute(sequence.folder()).lexically_relative(fs::absolute(folder));
-  record.sequence_hash = sequence.hash();
   record.summary = {{"run_id", run.run_id},
                     {"variant", run.variant},
                     {"scene", run.scene},
                     {"seed", run.seed},
                     {"method", run.method_name}};
   if (run.repeat > 0) record.summary["repeat"] = run.repeat;
-  ScoreRun(sequence, EstimateReader(folder / run.run_id / "estimate"), run.score, record);
   return record;
 }
 
-std::string LogOf(const fs::path& estimate_folder) {
+std::string LogOf(const EstimateReader& estimate) {
   std::string log;
-  const EstimateReader estimate(estimate_folder);
   for (std::size_t i = 0; i < estimate.frames().size(); ++i) {
     const FrameEstimate& frame = estimate.frames()[i];
     if (frame.message.empty()) continue;
@@ -100,27 +92,18 @@ void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
   writer.Finish(std::max(0.0, PeakMemory_mb() - before_mb));
 }
 
-std::vector<PlannedRun> TrackingRuns(const ExperimentPlan& plan, const fs::path& folder,
-                                     const WorkFolders& work) {
-  std::vector<PlannedRun> runs;
-  for (const RunPlan& run : plan.runs) {
-    PlannedRun planned;
-    planned.run_id = run.run_id;
-    planned.key = WorkKey(run.resolved);
-    planned.carry_out = [&run, name = plan.record.name, folder, work](const fs::path& run_folder) {
-      RunRecord record = CarryOut(run, name, folder, work);
-      WriteWholeFile(run_folder / "log", LogOf(run_folder / "estimate"));
-      return record;
-    };
-    planned.variant = run.variant;
-    planned.scene = run.scene;
-    planned.method = run.method_name;
-    planned.frames = run.frames;
-    planned.timed = plan.timed;
-    if (run.sequence.empty()) planned.shares = SequenceOf(run, work);
-    runs.push_back(std::move(planned));
-  }
-  return runs;
+RunRecord CarryOutTracking(const PlannedRun& planned, const fs::path& run_folder) {
+  const RunPlan run = ReadRunPlan(planned);
+  const SequenceReader sequence(ObtainSequence(run, planned.work));
+  Track(run, sequence, planned.work, run_folder / "estimate");
+  RunRecord record = RecordOf(run, planned.experiment);
+  record.sequence_folder =
+      fs::absolute(sequence.folder()).lexically_relative(fs::absolute(run_folder.parent_path()));
+  record.sequence_hash = sequence.hash();
+  const EstimateReader estimate(run_folder / "estimate");
+  ScoreRun(sequence, estimate, run.score, record);
+  WriteWholeFile(run_folder / "log", LogOf(estimate));
+  return record;
 }
 
 }  // namespace vitruvia

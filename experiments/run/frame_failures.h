@@ -1,0 +1,25 @@
+// How many frames of a run failed, and whether these are too many.
+#pragma once
+
+#include <string>
+
+#include "config/json_settings.h"
+#include "core/error.h"
+
+namespace vitruvia {
+
+inline constexpr ExitCode kFramesFailed{8};  // TEMP
+
+struct FrameFailures {
+  int failed = 0, frames = 0;
+
+  bool AreAll() const { return frames > 0 && failed == frames; }
+  bool AreMoreThan(double limit) const { return failed > limit * frames; }
+  // "8 of 12 frames failed, more than the limit of 50 %".
+  std::string Text(double limit) const;
+};
+
+// Of a run record's summary; none of a run without frames.
+FrameFailures FrameFailuresOf(const Json& summary);
+
+}  // namespace vitruvia

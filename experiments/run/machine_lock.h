@@ -1,0 +1,24 @@
+// The lock that keeps timed runs alone on their machine. Every process that carries out runs holds
+// it: shared for runs that may go together, exclusive for timed ones.
+//
+// All jobs and users of the machine must see the same file, so it does not depend on TMPDIR, which
+// batch systems set for each job. It is vitruvia-runs.lock in the folder that VITRUVIA_LOCK_DIR
+// names, or else in /run/lock, or in /tmp where /run/lock is not for all users to write.
+#pragma once
+
+#include <filesystem>
+
+#include "core/file_lock.h"
+
+namespace vitruvia {
+
+inline constexpr const char* kLockFolderVariable = "VITRUVIA_LOCK_DIR";
+
+// The lock's file, made if it is missing. RunError naming the variable if it cannot be made.
+std::filesystem::path MachineLockFile();
+
+// Waits, with a message, until the lock is free. Throws Error(kInterrupted) when the user asks to
+// stop.
+FileLock LockMachine(LockKind kind);
+
+}  // namespace vitruvia
