@@ -30,6 +30,7 @@
 #include "experiments/cli/status_command.h"
 #include "experiments/cli/submit_command.h"
 #include "experiments/cli/sufficient_command.h"
+#include "experiments/cli/verify_command.h"
 #include "experiments/plan/experiment_config.h"
 #include "experiments/run/tracking_runs.h"
 #include "reports/pages/report.h"
@@ -76,11 +77,6 @@ void Synthesize(const fs::path& scene_file, const fs::path& output) {
   fmt::print("{}\n", output.string());
 }
 
-void Verify(const fs::path& folder) {
-  VerifySequence(folder);
-  fmt::print("{}: complete and consistent\n", folder.string());
-}
-
 struct Arguments {
   fs::path scene, method, sequence, subject, verified, reported, output;
   std::string key;
@@ -110,11 +106,13 @@ void AddCommands(CLI::App& app, Arguments& a) {
   synth->add_option("-o,--output", a.output, "folder of the new sequence");
   synth->add_option("--verify", a.verified, "check this sequence instead of making one");
   synth->callback([&a] {
-    if (!a.verified.empty()) return Verify(a.verified);
+    if (!a.verified.empty()) return VerifyStored(a.verified);
     if (a.scene.empty() || a.output.empty())
       throw ConfigError("synth: expected SCENE.json -o DIR, or --verify DIR");
     Synthesize(a.scene, a.output);
   });
+
+  AddVerifyCommand(app);
 
   CLI::App* track = app.add_subcommand("track", "Track a sequence and score the result");
   track->add_option("METHOD", a.method, "method file")->required();
@@ -165,7 +163,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {
       throw ConfigError(
-          "expected a command: list, synth, import, learn, scan, fit, track, run, status, submit, "
+          "expected a command: list, synth, import, verify, learn, scan, fit, track, run, status, submit, "
           "rescore, export, report, index, compare, "
           "sufficient, regress, schema or explain (--help)");
     }
