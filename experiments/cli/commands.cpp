@@ -34,6 +34,7 @@
 #include "experiments/cli/submit_command.h"
 #include "experiments/cli/sufficient_command.h"
 #include "experiments/cli/track_command.h"
+#include "experiments/cli/verify_command.h"
 #include "experiments/plan/run_plan.h"
 #include "reports/pages/report.h"
 #include "sequence/sequence.h"
@@ -80,11 +81,6 @@ void Synthesize(const fs::path& scene_file, const fs::path& output) {
   fmt::print("{}\n", output.string());
 }
 
-void Verify(const fs::path& folder) {
-  VerifySequence(folder);
-  fmt::print("{}: complete and consistent\n", folder.string());
-}
-
 void Report(const fs::path& folder) {
   PrintProblems(ReadExperiment(folder));
   fmt::print("report: {}\n", WriteReport(folder).string());
@@ -108,12 +104,13 @@ void AddCommands(CLI::App& app, Arguments& a) {
   synth->add_option("-o,--output", a.output, "folder of the new sequence");
   synth->add_option("--verify", a.verified, "folder of a sequence to check, instead of making one");
   synth->callback([&a] {
-    if (!a.verified.empty()) return Verify(a.verified);
+    if (!a.verified.empty()) return VerifyStored(a.verified);
     if (a.scene.empty() || a.output.empty())
       throw ConfigError("synth: expected SCENE.json -o DIR, or --verify DIR");
     Synthesize(a.scene, a.output);
   });
 
+  AddVerifyCommand(app);
   AddTrackCommand(app);
   AddRunCommand(app);
   AddRunOneCommand(app);
@@ -158,7 +155,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {
       throw ConfigError(
-          "expected a command: list, synth, import, learn, scan, fit, track, run, status, submit, "
+          "expected a command: list, synth, import, verify, learn, scan, fit, track, run, status, submit, "
           "rescore, export, report, index, compare, "
           "sufficient, regress, schema or explain (--help)");
     }

@@ -1,0 +1,101 @@
+#include "verification/depth_agreement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Core>
+
+#include "math/statistics.h"
+#include "verification/depth_changes.h"
+#include "verification/limits.h"
+
+namespace vitruvia {
+namespace {
+using namespace verification_limits;
+
+constexpr long kRatioEvery = 7;  // of the pixels that both have
+
+double Share(long part, long whole) {
+  return static_cast<double>(part) / static_cast<double>(whole);
+}
+
+// Both see nothing there, or the same surface.
+bool IsSame(float a, float b) {
+  if (!(a > 0.0f) || !(b > 0.0f)) return !(a > 0.0f) && !(b > 0.0f);
+  return std::abs(a - b) <= kAgreeWithin_m;
+}
+
+struct Outline {
+  Eigen::Vector2d center, spread;  // pixels
+};
+
+Outline OutlineOf(const DepthImage& depth) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero(), squares = Eigen::Vector2d::Zero();
+  double count = 0.0;
+  for (int v = 0; v < depth.height(); ++v) {
+    for (int u = 0; u < depth.width(); ++u) {
+      if (!(depth(u, v) > 0.0f)) continue;
+      const Eigen::Vector2d p(u, v);
+      sum += p;
+      squares += p.cwiseAbs2();
+      count += 1.0;
+    }
+  }
+  const Eigen::Vector2d mean = sum / count;
+  return {mean, (squares / count - mean.cwiseAbs2()).cwiseMax(1e-9).cwiseSqrt()};
+}
+
+}  // namespace
+
+double Agreement::AgreeingShare() const { return both == 0 ? 0.0 : Share(agreeing, both); }
+double Agreement::CoveredShare() const { return rendered == 0 ? 1.0 : Share(both, rendered); }
+double Agreement::Silhouette() const {
+  const long either = rendered + measured - both;
+  return either == 0 ? 1.0 : Share(both, either);
+}
+double Agreement::Score() const { return rendered == 0 ? 0.0 : Share(agreeing, rendered); }
+double Agreement::DepthRatio() const { return ratios.empty() ? 1.0 : Quantile(ratios, 0.5); }
+
+Agreement Compare(const DepthImage& measured, const DepthImage& rendered) {
+  Agreement a;
+  for (std::size_t i = 0; i < rendered.pixels().size(); ++i) {
+    const float z = measured.pixels()[i], truth = rendered.pixels()[i];
+    a.rendered += truth > 0.0f ? 1 : 0;
+    a.measured += z > 0.0f ? 1 : 0;
+    if (!(z > 0.0f) || !(truth > 0.0f)) continue;
+    if (a.both++ % kRatioEvery == 0) a.ratios.push_back(z / truth);
+    a.agreeing += std::abs(z - truth) <= kAgreeWithin_m ? 1 : 0;
+  }
+  return a;
+}
+
+void Add(const Agreement& frame, Agreement& sum) {
+  sum.rendered += frame.rendered;
+  sum.measured += frame.measured;
+  sum.both += frame.both;
+  sum.agreeing += frame.agreeing;
+  sum.ratios.insert(sum.ratios.end(), frame.ratios.begin(), frame.ratios.end());
+}
+
+MirrorVotes VoteOnMirror(const DepthImage& measured, const DepthImage& rendered) {
+  MirrorVotes votes;
+  const int width = rendered.width();
+  for (int v = 0; v < rendered.height(); ++v) {
+    for (int u = 0; u < width; ++u) {
+      const float truth = rendered(u, v), mirror = rendered(width - 1 - u, v);
+      if (IsSame(truth, mirror)) continue;
+      const float z = measured(u, v);
+      votes.for_truth += IsSame(z, truth) ? 1 : 0;
+      votes.for_mirror += IsSame(z, mirror) ? 1 : 0;
+    }
+  }
+  return votes;
+}
+
+OutlineDifference CompareOutlines(const DepthImage& measured, const DepthImage& rendered) {
+  const Outline a = OutlineOf(measured), b = OutlineOf(rendered);
+  const Eigen::Vector2d scale = a.spread.cwiseQuotient(b.spread), shift = a.center - b.center;
+  return {scale.x(), scale.y(), shift.x(), shift.y()};
+}
+
+}  // namespace vitruvia

@@ -1,0 +1,44 @@
+// How well a depth image agrees with the true surface that it should show. For this module's own
+// files.
+#pragma once
+
+#include <vector>
+
+#include "geometry/image.h"
+
+namespace vitruvia {
+
+// Counts of pixels of one frame, or of several added up.
+struct Agreement {
+  long rendered = 0;  // pixels that show the true surface
+  long measured = 0;  // pixels with depth
+  long both = 0;
+  long agreeing = 0;           // of both: within kAgreeWithin_m
+  std::vector<double> ratios;  // measured / rendered of some of both
+
+  double AgreeingShare() const;  // of both; 0 if there are none
+  double CoveredShare() const;   // both / rendered; 1 if nothing is rendered
+  double Silhouette() const;     // intersection over union
+  // Share of the rendered pixels that agree: what causes are compared by.
+  double Score() const;
+  // Median of ratios; 1 without any.
+  double DepthRatio() const;
+};
+
+Agreement Compare(const DepthImage& measured, const DepthImage& rendered);
+void Add(const Agreement& frame, Agreement& sum);
+
+// Pixels where the true surface and its mirror image differ, by which of the two the depth has.
+struct MirrorVotes {
+  long for_truth = 0, for_mirror = 0;
+};
+MirrorVotes VoteOnMirror(const DepthImage& measured, const DepthImage& rendered);
+
+// Outline of the measured pixels against the rendered ones: ratio of the spread along u and v, and
+// how far the centre is shifted along them, in pixels.
+struct OutlineDifference {
+  double scale_u = 1.0, scale_v = 1.0, shift_u_px = 0.0, shift_v_px = 0.0;
+};
+OutlineDifference CompareOutlines(const DepthImage& measured, const DepthImage& rendered);
+
+}  // namespace vitruvia

@@ -1,0 +1,32 @@
+// What a check of a sequence found.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace vitruvia {
+
+enum class Severity {
+  kWarning,  // may be meant
+  kError,    // cannot be true
+};
+
+struct Finding {
+  Severity severity = Severity::kWarning;
+  std::string text;  // file inside the sequence, place, evidence in numbers, likely cause
+};
+using Findings = std::vector<Finding>;
+
+template <class... Args>
+Finding Warning(fmt::format_string<Args...> text, Args&&... args) {
+  return {Severity::kWarning, fmt::format(text, std::forward<Args>(args)...)};
+}
+template <class... Args>
+Finding Impossible(fmt::format_string<Args...> text, Args&&... args) {
+  return {Severity::kError, fmt::format(text, std::forward<Args>(args)...)};
+}
+
+}  // namespace vitruvia

@@ -1,0 +1,31 @@
+// Guesses at what went wrong, from a ratio or from a change of axes that would put it right.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "math/rigid.h"
+
+namespace vitruvia {
+
+// "1000 times too large" for a length or depth that is `ratio` times what is expected.
+std::string TimesTooLarge(double ratio);
+
+// A question after TimesTooLarge: ": in millimetres?"; "" where the ratio is of no known unit.
+std::string LengthUnitCause(double ratio);
+
+// A question about the header's depth_unit_m, given that depth is `ratio` times what is expected.
+std::string DepthUnitCause(double ratio, double depth_unit_m);
+
+// A signed permutation of the axes other than the identity.
+struct AxisMap {
+  Matrix3<double> expected_from_file;
+};
+
+const std::vector<AxisMap>& AxisMaps();  // all 47
+
+enum class AxesOf { kCamera, kSubject };
+// What a file has if `map` puts it right: "y up and z backwards instead of y down and z forward".
+std::string AxisCause(const AxisMap& map, AxesOf frame);
+
+}  // namespace vitruvia

@@ -1,0 +1,86 @@
+#include "verification/verification.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "core/error.h"
+#include "core/message.h"
+#include "verification/checks.h"
+#include "verification/limits.h"
+#include "verification/rest_mesh_check.h"
+
+namespace vitruvia {
+namespace fs = std::filesystem;
+namespace {
+
+bool HasError(const Findings& findings) {
+  return std::any_of(findings.begin(), findings.end(),
+                     [](const Finding& f) { return f.severity == Severity::kError; });
+}
+
+Findings CheckSubjectOf(const SequenceReader& sequence) {
+  if (!sequence.info().subject) return {};
+  Findings findings = CheckSubject(sequence.subject());
+  for (Finding& finding : findings) finding.text = "subject/" + finding.text;
+  return findings;
+}
+
+Findings CheckRestMeshOf(const SequenceReader& sequence) {
+  if (!sequence.info().subject || !sequence.info().surface) return {};
+  return CheckRestMesh(sequence.true_rest_mesh(), sequence.subject(), "truth/mesh.ply");
+}
+
+std::vector<std::string> Judge(const Findings& findings, const fs::path& shown_as) {
+  std::vector<std::string> warnings;
+  for (const Finding& finding : findings) {
+    const std::string text = fmt::format("{}: {}", shown_as.string(), finding.text);
+    if (finding.severity == Severity::kError) throw DataError(text);
+    PrintMessage("warning: {}\n", text);
+    warnings.push_back(finding.text);
+  }
+  return warnings;
+}
+
+}  // namespace
+
+std::vector<int> SpreadFrames(int frames, int count) {
+  std::vector<int> spread;
+  const int taken = std::min(frames, count);
+  for (int i = 0; i < taken; ++i)
+    spread.push_back(
+        taken == 1 ? 0 : static_cast<int>(static_cast<long>(i) * (frames - 1) / (taken - 1)));
+  return spread;
+}
+
+Findings FindInconsistencies(const SequenceReader& sequence, FrameSelection selection) {
+  const int count = sequence.info().frames;
+  const std::vector<int> frames = SpreadFrames(
+      count, selection == FrameSelection::kAll ? count : verification_limits::kSampledFrames);
+  const std::function<Findings()> checks[] = {
+      [&] { return CheckCamera(sequence.info().camera); },
+      [&] { return CheckSubjectOf(sequence); },
+      [&] { return CheckRestMeshOf(sequence); },
+      [&] { return CheckTrueJoints(sequence); },
+      [&] { return CheckTrueSurface(sequence, frames); },
+      [&] { return CheckImages(sequence, frames); },
+      [&] { return CheckDepth(sequence, frames); },
+  };
+  Findings all;
+  for (const auto& check : checks) {
+    const Findings found = check();
+    all.insert(all.end(), found.begin(), found.end());
+    if (HasError(found)) break;
+  }
+  return all;
+}
+
+std::vector<std::string> RequireConsistent(const SequenceReader& sequence, FrameSelection selection,
+                                           const fs::path& shown_as) {
+  return Judge(FindInconsistencies(sequence, selection), shown_as);
+}
+
+std::vector<std::string> RequireConsistent(const BodyModel& subject, const fs::path& shown_as) {
+  return Judge(CheckSubject(subject), shown_as);
+}
+
+}  // namespace vitruvia
