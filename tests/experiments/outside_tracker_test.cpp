@@ -72,7 +72,7 @@ TEST_F(OutsideTracker, TheTruthAsItsAnswerScoresPerfectly) {
 TEST_F(OutsideTracker, WhatItDoesWrongFailsItsRunWithTheFrame) {
   ASSERT_EQ(CallVitruvia({"synth", files_.File("scene.json"), "-o", files_.File("sequence")}).code,
             0);
-  ExpectFailure("end", "has ended; 0 bytes of an answer were there");
+  ExpectFailure("end", "has ended with exit code 3 after 0 bytes of an answer");
   ExpectFailure("talk", "frame 2: expected a line with a JSON object, got tracking...");
   ExpectFailure("joints", "frame 2: expected \"joints\": 17 points");
   ExpectFailure("outcome", "frame 2: expected \"outcome\": converged, iteration_limit, lost");
@@ -80,22 +80,66 @@ TEST_F(OutsideTracker, WhatItDoesWrongFailsItsRunWithTheFrame) {
   ExpectFailure("numbers", "frame 2: expected finite vertices, vertex 5 is not");
 }
 
-TEST_F(OutsideTracker, AProgramThatHangsOrIsNoneIsTold) {
-  Json method = {{"method", "external"}, {"settings", {{"program", "hang.sh"}}}};
-  method["settings"]["answer_within_s"] = 0.3;
-  files_.Write("method.json", method);
-  WriteWholeFile(files_ / "hang.sh", "#!/bin/sh\nexec sleep 60\n");
-  const auto run_fails = [this](const std::string& words) {
-    const CallResult call = Run();
-    EXPECT_EQ(call.code, static_cast<int>(ExitCode::kFailedRun));
-    EXPECT_THAT(call.error, HasSubstr(words));
-  };
-  run_fails("hang.sh: cannot be started: Permission denied");
-  fs::permissions(files_ / "hang.sh", fs::perms::owner_all);
-  run_fails("hang.sh: no answer within 0.3 s");
-  method["settings"]["program"] = "nowhere.sh";
-  files_.Write("method.json", method);
-  run_fails("nowhere.sh: cannot be started: No such file or directory");
+// Programs that never become a tracker. The sequence is made once for all of them.
+class OutsideProgram : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(
+        CallVitruvia({"synth", files_.File("scene.json"), "-o", files_.File("sequence")}).code, 0);
+  }
+
+  void WriteProgram(const std::string& name, const std::string& text, fs::perms permissions) const {
+    WriteWholeFile(files_ / name, text);
+    fs::permissions(files_ / name, permissions);
+  }
+
+  void ExpectRefused(const std::string& program, ExitCode code, const std::string& words,
+                     double answer_within_s = 20.0) const {
+    files_.Write("method.json",
+                 {{"method", "external"},
+                  {"settings", {{"program", program}, {"answer_within_s", answer_within_s}}}});
+    ExpectRefusal({"track", files_.File("method.json"), "--sequence", files_.File("sequence"), "-o",
+                   files_.File("estimate")},
+                  code, {words});
+    EXPECT_FALSE(fs::exists(files_ / "estimate"));
+  }
+
+  SmallExperiment files_;
+};
+
+TEST_F(OutsideProgram, ThatCannotBeExecutedIsRefusedWithTheReasonOfTheSystem) {
+  constexpr ExitCode kCode = ExitCode::kBadConfiguration;
+  ExpectRefused("nowhere.sh", kCode, "nowhere.sh: cannot be started: No such file or directory");
+  WriteProgram("plain.sh", "#!/bin/sh\n", fs::perms::owner_read);
+  ExpectRefused("plain.sh", kCode, "plain.sh: cannot be started: Permission denied");
+  fs::create_directory(files_ / "folder");
+  ExpectRefused("folder", kCode,
+                "folder: cannot be started: Permission denied; expected a file, this is a folder");
+  for (const char* text : {"print('no interpreter named')\n", ""}) {
+    WriteProgram("no_shebang.py", text, fs::perms::owner_all);
+    ExpectRefused("no_shebang.py", kCode,
+                  "no_shebang.py: cannot be started: Exec format error; expected a program for "
+                  "this machine, or a script whose first line names its interpreter, such as "
+                  "\"#!/usr/bin/env python3\"");
+  }
+  for (const char* text : {"#!/nowhere/python3\n", "#!/bin/sh\r\n"}) {
+    WriteProgram("no_interpreter.py", text, fs::perms::owner_all);
+    ExpectRefused("no_interpreter.py", kCode,
+                  "cannot be started: No such file or directory; the file is there, but not the "
+                  "interpreter that it asks for (its #! line)");
+  }
+}
+
+TEST_F(OutsideProgram, ThatEndsOrHangsFailsItsRun) {
+  constexpr ExitCode kCode = ExitCode::kFailedRun;
+  WriteProgram("program.sh", "#!/bin/sh\nexec sleep 60\n", fs::perms::owner_all);
+  ExpectRefused("program.sh", kCode, "program.sh: no answer within 0.3 s", 0.3);
+  WriteProgram("program.sh", "#!/bin/sh\nread start\nkill -SEGV $$\n", fs::perms::owner_all);
+  ExpectRefused("program.sh", kCode,
+                "program.sh: was ended by signal 11 (Segmentation fault) after 0 bytes");
+  WriteProgram("program.sh", "#!/bin/sh\nread start\nprintf ready\nexit 127\n",
+               fs::perms::owner_all);
+  ExpectRefused("program.sh", kCode, "program.sh: has ended with exit code 127 after 5 bytes");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// A program started beside this one, whose standard input and output are ours to write and read.
+// A program started beside this one. Its standard input and output are connected to a socket that
+// this class writes and reads; its standard error goes where ours goes.
 #pragma once
 
 #include <chrono>
@@ -9,13 +10,33 @@
 
 namespace vitruvia::external {
 
-// All members throw RunError naming the program if it has ended or takes too long, and
-// Error(kInterrupted) if a stop was asked for. Its standard error goes where ours goes.
+// Owns a file descriptor.
+class Descriptor {
+ public:
+  explicit Descriptor(int fd = -1) : fd_(fd) {}
+  ~Descriptor() { Close(); }
+  Descriptor(Descriptor&& other) noexcept : fd_(other.Release()) {}
+  Descriptor& operator=(Descriptor&& other) noexcept;
+
+  int get() const { return fd_; }
+  void Close();
+
+ private:
+  int Release();
+
+  int fd_;
+};
+
+// Write, ReadLine and Read throw RunError naming the program if it has ended or does not answer in
+// time, and Error(kInterrupted) if the user asked for a stop.
 class PipedProgram {
  public:
+  // Starts the program without a shell. ConfigError with the system's reason if it cannot be
+  // executed; RunError if the system has no socket or process left.
   PipedProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                double answer_within_s);
-  ~PipedProgram();  // closes its input, and ends it if it does not end by itself
+  // Closes the program's input, waits a second for it to end, then kills it.
+  ~PipedProgram();
   PipedProgram(const PipedProgram&) = delete;
   PipedProgram& operator=(const PipedProgram&) = delete;
 
@@ -23,19 +44,24 @@ class PipedProgram {
   std::string ReadLine();  // without its newline
   void Read(void* data, std::size_t bytes);
 
-  [[noreturn]] void Fail(const std::string& problem) const;
+  [[noreturn]] void Fail(const std::string& problem) const;  // RunError
 
  private:
   using Deadline = std::chrono::steady_clock::time_point;
+  void StartProcess(const std::filesystem::path& program,
+                    const std::vector<std::string>& arguments);
   Deadline NextDeadline() const;
   void Await(short events, Deadline deadline) const;
-  void Receive(Deadline deadline);  // at least one byte more
+  void Receive(Deadline deadline);  // at least one more byte
+  [[noreturn]] void FailBecauseGone(const std::string& when);
+  bool WaitForEnd();  // false if the process still runs after a second
 
   std::string name_;
   std::chrono::duration<double> answer_within_;
-  pid_t process_ = -1;
-  int socket_ = -1;
-  std::string received_;  // and not yet read
+  Descriptor socket_;
+  pid_t process_ = -1;    // -1: none, or its end was already noticed
+  int status_ = 0;        // of waitpid, once the process has ended
+  std::string received_;  // bytes received but not yet returned
 };
 
 }  // namespace vitruvia::external
