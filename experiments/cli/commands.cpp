@@ -37,7 +37,6 @@
 #include "experiments/cli/verify_command.h"
 #include "experiments/plan/run_plan.h"
 #include "reports/pages/report.h"
-#include "sequence/sequence.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
