@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "config/json_settings.h"
+#include "experiments/cli/motion_check_command.h"
 #include "importers/eval_import.h"
 #include "importers/mesh_import.h"
 
@@ -46,7 +47,7 @@ void ImportEval(const ImportArguments& a) {
 
 void AddImportCommand(CLI::App& app) {
   auto a = std::make_shared<ImportArguments>();
-  CLI::App* import = app.add_subcommand("import", "Make a sequence of somebody else's data");
+  CLI::App* import = app.add_subcommand("import", "Make a sequence of somebody else's data, or check a file");
   import->require_subcommand(1);
   CLI::App* meshes = import->add_subcommand(
       "meshes", "Mesh files, one for each frame: rendered as a depth camera sees them");
@@ -63,6 +64,7 @@ void AddImportCommand(CLI::App& app) {
   eval->add_option("--config", a->config, "import config file (src/importers/eval_import.h)");
   eval->add_option("-o,--output", a->output, "folder of the new sequence")->required();
   eval->callback([a] { ImportEval(*a); });
+  AddMotionCheckCommand(*import);
 }
 
 }  // namespace vitruvia
