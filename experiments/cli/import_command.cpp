@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "config/json_settings.h"
+#include "experiments/cli/motion_check_command.h"
 #include "importers/eval_import.h"
 #include "importers/mesh_import.h"
 
@@ -46,8 +47,8 @@ void ImportEval(const ImportArguments& a) {
 
 void AddImportCommand(CLI::App& app) {
   auto a = std::make_shared<ImportArguments>();
-  CLI::App* import =
-      app.add_subcommand("import", "Make a sequence of recordings or meshes of other programs");
+  CLI::App* import = app.add_subcommand(
+      "import", "Make a sequence of recordings or meshes of other programs, or check a motion file");
   import->require_subcommand(1);
   CLI::App* meshes = import->add_subcommand(
       "meshes", "Mesh files, one for each frame: rendered as a depth camera sees them");
@@ -64,6 +65,7 @@ void AddImportCommand(CLI::App& app) {
   eval->add_option("--config", a->config, "import config file (src/importers/eval_import.h)");
   eval->add_option("-o,--output", a->output, "folder of the new sequence")->required();
   eval->callback([a] { ImportEval(*a); });
+  AddMotionCheckCommand(*import);
 }
 
 }  // namespace vitruvia

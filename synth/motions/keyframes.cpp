@@ -65,6 +65,7 @@ class KeyframedMotion final : public Motion {
   }
 
   double duration_s() const override { return keys_.back().time_s; }
+  bool repeats() const override { return loop_; }
 
   MotionSample At(double time_s) const override {
     const double duration = duration_s();

@@ -24,13 +24,21 @@ MocapPose PoseOf(const MocapClip& clip, const MocapFrame& frame) {
     Vector3<double> position = frame.root_position;
     if (const int parent = clip.joints[i].parent; parent >= 0) {
       const auto p = static_cast<std::size_t>(parent);
-      position = pose.positions[p] + pose.rotations[p] * clip.joints[i].offset;
+      const Vector3<double>& offset =
+          frame.offsets.empty() ? clip.joints[i].offset : frame.offsets[i];
+      position = pose.positions[p] + pose.rotations[p] * offset;
       rotation = pose.rotations[p] * rotation;
     }
     pose.rotations.push_back(rotation);
     pose.positions.push_back(position);
   }
   return pose;
+}
+
+bool Descends(const MocapClip& clip, int joint, int ancestor) {
+  while (joint >= 0 && joint != ancestor)
+    joint = clip.joints[static_cast<std::size_t>(joint)].parent;
+  return joint >= 0;
 }
 
 }  // namespace vitruvia

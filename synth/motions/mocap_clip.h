@@ -22,6 +22,9 @@ struct MocapJoint {
 struct MocapFrame {
   Vector3<double> root_position = Vector3<double>::Zero();
   std::vector<Eigen::Quaterniond> rotations;  // parent_from_joint, one per joint
+  // From the parent in the parent's axes, one per joint (the root's is not used); empty where the
+  // joints keep their offsets at rest.
+  std::vector<Vector3<double>> offsets;
 };
 
 struct MocapClip {
@@ -29,6 +32,9 @@ struct MocapClip {
   std::vector<MocapJoint> joints;
   double frame_s = 0.0;
   std::vector<MocapFrame> frames;  // at least one
+  // What a reader found odd, and what it had to assume: whole sentences that name the file.
+  std::vector<std::string> notes;     // as most files have it: not worth a warning
+  std::vector<std::string> warnings;  // may be wrong
 };
 
 // The joints' positions at rest relative to the root.
@@ -39,5 +45,8 @@ struct MocapPose {
   std::vector<Vector3<double>> positions;
 };
 MocapPose PoseOf(const MocapClip& clip, const MocapFrame& frame);
+
+// The joint or one of its ancestors is `ancestor`.
+bool Descends(const MocapClip& clip, int joint, int ancestor);
 
 }  // namespace vitruvia

@@ -46,17 +46,6 @@ constexpr std::array<FleshyJoint, 10> kFleshyJoints{{{kLeftThigh, false, 0.12},
                                                      {kLeftHand, true, 0.02},
                                                      {kRightHand, true, 0.02}}};
 
-std::size_t JointOf(const MocapJoints& joints, BoneId bone) {
-  return static_cast<std::size_t>(joints.joints[static_cast<std::size_t>(bone)]);
-}
-
-bool Descends(const MocapClip& clip, std::size_t joint, std::size_t ancestor) {
-  while (joint != ancestor && clip.joints[joint].parent >= 0) {
-    joint = static_cast<std::size_t>(clip.joints[joint].parent);
-  }
-  return joint == ancestor;
-}
-
 // Heel and toes on the sole, which is as far below the ankle as the lowest of the foot's joints.
 void AddFoot(const MocapClip& clip, std::size_t shin, std::size_t foot,
              std::vector<ContactPoint>& points) {
@@ -65,7 +54,7 @@ void AddFoot(const MocapClip& clip, std::size_t shin, std::size_t foot,
   double sole = 0.0;
   Vector3d toes = Vector3d::Zero();
   for (std::size_t joint = foot; joint < clip.joints.size(); ++joint) {
-    if (!Descends(clip, joint, foot)) continue;
+    if (!Descends(clip, static_cast<int>(joint), static_cast<int>(foot))) continue;
     const Vector3d from_ankle = rest[joint] + clip.joints[joint].tip - rest[foot];
     const Vector3d flat = rest_from_flat.transpose() * from_ankle;
     sole = std::min(sole, flat.y());
@@ -80,10 +69,10 @@ void AddFoot(const MocapClip& clip, std::size_t shin, std::size_t foot,
 std::vector<ContactPoint> ContactPoints(const MocapClip& clip, const MocapJoints& joints,
                                         double leg_length_m) {
   std::vector<ContactPoint> points;
-  AddFoot(clip, JointOf(joints, kLeftShin), JointOf(joints, kLeftFoot), points);
-  AddFoot(clip, JointOf(joints, kRightShin), JointOf(joints, kRightFoot), points);
+  AddFoot(clip, joints.At(kLeftShin), joints.At(kLeftFoot), points);
+  AddFoot(clip, joints.At(kRightShin), joints.At(kRightFoot), points);
   for (const FleshyJoint& fleshy : kFleshyJoints) {
-    const std::size_t joint = JointOf(joints, fleshy.bone);
+    const std::size_t joint = joints.At(fleshy.bone);
     const Vector3d offset = fleshy.at_tip ? clip.joints[joint].tip : Vector3d::Zero();
     points.push_back({joint, offset, fleshy.radius_of_leg * leg_length_m});
   }

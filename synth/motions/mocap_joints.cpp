@@ -2,42 +2,30 @@
 
 #include <algorithm>
 #include <cctype>
-#include <initializer_list>
-#include <string_view>
+#include <optional>
 
+#include "config/json_settings.h"
 #include "core/error.h"
+#include "synth/motions/mocap_rigs.h"
 
 namespace vitruvia {
 namespace {
 
-// Names of a limb's joint without its side, the surest first: where a rig has both LeftArm and
-// LeftShoulder, the arm begins at LeftArm; where it has only LeftShoulder, there.
-struct LimbNames {
-  BoneId left, right;
-  const char* what;
-  std::initializer_list<std::string_view> names;
-};
+constexpr std::size_t Index(BoneId bone) { return static_cast<std::size_t>(bone); }
 
-const std::array<LimbNames, 6>& Limbs() {
-  using enum BoneId;
-  static const std::array<LimbNames, 6> kLimbs{{
-      {kLeftUpperArm,
-       kRightUpperArm,
-       "upper arm",
-       {"arm", "upperarm", "uparm", "humerus", "shoulder"}},
-      {kLeftForearm,
-       kRightForearm,
-       "forearm",
-       {"forearm", "lowerarm", "lowarm", "radius", "elbow"}},
-      {kLeftHand, kRightHand, "hand", {"hand", "wrist"}},
-      {kLeftThigh, kRightThigh, "thigh", {"upleg", "upperleg", "thigh", "femur", "hip"}},
-      {kLeftShin,
-       kRightShin,
-       "shin",
-       {"leg", "lowerleg", "lowleg", "shin", "calf", "tibia", "knee"}},
-      {kLeftFoot, kRightFoot, "foot", {"foot", "ankle"}},
-  }};
-  return kLimbs;
+bool IsSeparator(char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }
+
+// How many first characters all names but the root's share, up to the last separator among them:
+// the rig's own prefix, as in "m_avg_L_Hip" or "Bip01 L Thigh".
+std::size_t SharedPrefix(const std::vector<std::string>& names) {
+  if (names.size() < 2) return 0;
+  std::string_view shared = names[1];
+  for (std::size_t i = 2; i < names.size(); ++i) {
+    const auto differs = std::ranges::mismatch(shared, names[i]);
+    shared = shared.substr(0, static_cast<std::size_t>(differs.in1 - shared.begin()));
+  }
+  while (!shared.empty() && !IsSeparator(shared.back())) shared.remove_suffix(1);
+  return shared.size();
 }
 
 // Lower case letters and digits only, without a rig's prefix.
@@ -54,73 +42,150 @@ std::string Normalized(std::string_view name) {
   return result;
 }
 
+std::vector<std::string> NormalizedNames(const MocapClip& clip) {
+  std::vector<std::string> names;
+  for (const MocapJoint& joint : clip.joints) names.push_back(joint.name);
+  const std::size_t prefix = SharedPrefix(names);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    names[i] = Normalized(i == 0 ? names[i] : names[i].substr(prefix));
+  }
+  // A word at the end of all names, as in "left_hip_jnt".
+  for (const std::string_view suffix : {"joint", "jnt", "bone"}) {
+    const auto has = [&](const std::string& name) { return name.ends_with(suffix); };
+    if (!std::all_of(names.begin() + 1, names.end(), has)) continue;
+    for (std::string& name : names) {
+      if (has(name)) name.erase(name.size() - suffix.size());
+    }
+  }
+  return names;
+}
+
 class JointFinder {
  public:
-  explicit JointFinder(const MocapClip& clip) : clip_(clip) {
-    for (const MocapJoint& joint : clip.joints) names_.push_back(Normalized(joint.name));
+  JointFinder(const MocapClip& clip, const std::vector<MocapJointName>& named)
+      : clip_(clip), names_(NormalizedNames(clip)) {
+    given_.fill(-1);
+    for (const MocapJointName& name : named) TakeGiven(name);
   }
 
   MocapJoints Find() {
-    found_.joints.fill(-1);
-    for (const LimbNames& limb : Limbs()) {
-      FindSide(limb, limb.left, "left");
-      FindSide(limb, limb.right, "right");
-    }
-    At(BoneId::kHead) = IndexOf("head");
-    if (At(BoneId::kHead) < 0) missing_.push_back("head");
-    ThrowIfMissing();
+    FindRig();
     CheckLimb(BoneId::kLeftUpperArm, BoneId::kLeftForearm, BoneId::kLeftHand);
     CheckLimb(BoneId::kRightUpperArm, BoneId::kRightForearm, BoneId::kRightHand);
     CheckLimb(BoneId::kLeftThigh, BoneId::kLeftShin, BoneId::kLeftFoot);
     CheckLimb(BoneId::kRightThigh, BoneId::kRightShin, BoneId::kRightFoot);
-    At(BoneId::kPelvis) = CommonAncestor(At(BoneId::kLeftThigh), At(BoneId::kRightThigh));
-    At(BoneId::kChest) = CommonAncestor(At(BoneId::kLeftUpperArm), At(BoneId::kRightUpperArm));
+    SetTrunk(BoneId::kPelvis, BoneId::kLeftThigh, BoneId::kRightThigh);
+    SetTrunk(BoneId::kChest, BoneId::kLeftUpperArm, BoneId::kRightUpperArm);
     SetSources();
     return found_;
   }
 
  private:
-  int& At(BoneId bone) { return found_.joints[static_cast<std::size_t>(bone)]; }
-  MocapBoneSource& Source(BoneId bone) { return found_.sources[static_cast<std::size_t>(bone)]; }
-  int Parent(int joint) const { return clip_.joints[static_cast<std::size_t>(joint)].parent; }
+  using Joints = std::array<int, kBoneCount>;
 
-  int IndexOf(const std::string& name) const {
-    const auto found = std::ranges::find(names_, name);
-    return found == names_.end() ? -1 : static_cast<int>(found - names_.begin());
+  int& At(BoneId bone) { return found_.joints[Index(bone)]; }
+  MocapBoneSource& Source(BoneId bone) { return found_.sources[Index(bone)]; }
+  int Parent(int joint) const { return clip_.joints[static_cast<std::size_t>(joint)].parent; }
+  bool Has(int joint, int ancestor) const { return Descends(clip_, joint, ancestor); }
+
+  void TakeGiven(const MocapJointName& name) {
+    const int bone = FindJoint(name.ours);
+    Require(bone >= 0, "{} is no joint of the skeleton", name.ours);
+    std::vector<std::string> of_file;
+    for (std::size_t i = 0; i < clip_.joints.size(); ++i) {
+      of_file.push_back(clip_.joints[i].name);
+      if (of_file.back() == name.file) given_[static_cast<std::size_t>(bone)] = static_cast<int>(i);
+    }
+    if (given_[static_cast<std::size_t>(bone)] >= 0) return;
+    const std::string nearest = NearestWord(name.file, of_file);
+    throw DataError(fmt::format("{}: there is no joint {}, which the motion's joints take for {}{}",
+                                clip_.file.string(), name.file, name.ours,
+                                nearest.empty() ? "" : fmt::format(" (is {} meant?)", nearest)));
   }
 
-  void FindSide(const LimbNames& limb, BoneId bone, const std::string& side) {
-    for (const std::string_view name : limb.names) {
-      for (const std::string& prefix : {side, side.substr(0, 1)}) {
-        for (const std::string& candidate :
-             {prefix + std::string(name), std::string(name) + prefix}) {
-          if (At(bone) < 0) At(bone) = IndexOf(candidate);
-        }
+  void FindRig() {
+    for (const MocapRig& rig : MocapRigs()) {
+      if (!rig.mark.empty() && std::ranges::find(names_, rig.mark) == names_.end()) continue;
+      found_.rig = rig.name;
+      found_.joints = given_;
+      missing_.clear();
+      for (std::size_t i = 0; i < kLimbJointCount; ++i)
+        FindLimbJoint(LimbJoints()[i], rig.names[i]);
+      if (missing_.empty()) return;
+    }
+    ThrowMissing();
+  }
+
+  void FindLimbJoint(const LimbJointInfo& joint, const std::vector<std::string_view>& names) {
+    if (joint.left == joint.right) {
+      if (At(joint.left) < 0) At(joint.left) = WithName(std::string(names[0]));
+      if (At(joint.left) < 0) missing_.emplace_back(joint.what);
+      return;
+    }
+    for (const std::string_view name : names) {
+      for (const auto& [left, right] : SidesOf(std::string(name))) {
+        if (At(joint.left) >= 0 && At(joint.right) >= 0) return;
+        const int on_left = At(joint.left) >= 0 ? At(joint.left) : WithName(left);
+        const int on_right = At(joint.right) >= 0 ? At(joint.right) : WithName(right);
+        if ((on_left < 0) != (on_right < 0)) return AddMissing(joint, names);
+        if (on_left < 0) continue;
+        At(joint.left) = on_left;
+        At(joint.right) = on_right;
       }
     }
-    if (At(bone) < 0) missing_.push_back(side + " " + limb.what);
+    AddMissing(joint, names);
   }
 
-  void ThrowIfMissing() const {
-    if (missing_.empty()) return;
-    std::string missing, names;
-    for (const std::string& part : missing_) missing += (missing.empty() ? "" : ", ") + part;
+  // The side that has none of the names; both if each has one, but of different kinds.
+  void AddMissing(const LimbJointInfo& joint, const std::vector<std::string_view>& names) {
+    bool on_left = At(joint.left) >= 0, on_right = At(joint.right) >= 0;
+    if (on_left && on_right) return;
+    for (const std::string_view name : names) {
+      for (const auto& [left, right] : SidesOf(std::string(name))) {
+        on_left = on_left || WithName(left) >= 0;
+        on_right = on_right || WithName(right) >= 0;
+      }
+    }
+    if (!on_left || on_right) missing_.push_back(fmt::format("left {}", joint.what));
+    if (!on_right || on_left) missing_.push_back(fmt::format("right {}", joint.what));
+  }
+
+  static std::array<std::pair<std::string, std::string>, 4> SidesOf(const std::string& name) {
+    return {{{"left" + name, "right" + name},
+             {name + "left", name + "right"},
+             {"l" + name, "r" + name},
+             {name + "l", name + "r"}}};
+  }
+
+  // The joint of that name, -1 if there is none; where there are several, nobody can tell.
+  int WithName(const std::string& name) const {
+    const auto found = std::ranges::find(names_, name);
+    if (found == names_.end()) return -1;
+    const auto second = std::find(found + 1, names_.end(), name);
+    const auto index = found - names_.begin();
+    if (second != names_.end()) {
+      throw DataError(
+          fmt::format("{}: two joints have one name, {} and {}; the motion's joints must say which "
+                      "one is meant",
+                      clip_.file.string(), clip_.joints[static_cast<std::size_t>(index)].name,
+                      clip_.joints[static_cast<std::size_t>(second - names_.begin())].name));
+    }
+    return static_cast<int>(index);
+  }
+
+  [[noreturn]] void ThrowMissing() const {
+    std::string names;
     for (const MocapJoint& joint : clip_.joints) names += (names.empty() ? "" : ", ") + joint.name;
-    throw DataError(
-        fmt::format("{}: cannot tell which joint is the {}; expected names such as "
-                    "LeftArm, LeftForeArm, LeftHand, LeftUpLeg, LeftLeg, LeftFoot and "
-                    "Head, or CMU's; the file has {}",
-                    clip_.file.string(), missing, names));
-  }
-
-  bool Descends(int joint, int ancestor) const {
-    while (joint >= 0 && joint != ancestor) joint = Parent(joint);
-    return joint >= 0;
+    throw DataError(fmt::format(
+        "{}: cannot tell which joint is the {}; expected names of one kind on both sides, such as "
+        "LeftArm, LeftForeArm, LeftHand, LeftUpLeg, LeftLeg, LeftFoot and Head, or the motion's "
+        "joints to say it; the file has {}",
+        clip_.file.string(), fmt::join(missing_, ", "), names));
   }
 
   void CheckLimb(BoneId first, BoneId second, BoneId third) {
-    if (At(first) != At(second) && At(second) != At(third) && Descends(At(second), At(first)) &&
-        Descends(At(third), At(second))) {
+    if (At(first) != At(second) && At(second) != At(third) && Has(At(second), At(first)) &&
+        Has(At(third), At(second))) {
       return;
     }
     const auto name = [&](BoneId bone) {
@@ -130,16 +195,18 @@ class JointFinder {
                                 clip_.file.string(), name(first), name(second), name(third)));
   }
 
-  int CommonAncestor(int a, int b) const {
-    while (!Descends(b, a)) a = Parent(a);
-    return a;
+  void SetTrunk(BoneId bone, BoneId left, BoneId right) {
+    if (At(bone) >= 0) return;
+    int common = At(left);
+    while (!Has(At(right), common)) common = Parent(common);
+    At(bone) = common;
   }
 
   // The last joint but one on the way from `begin` to `end`, or half-way between the two where
   // nothing lies between.
   MocapBoneSource Between(int begin, int end) const {
     const int middle = Parent(end);
-    if (middle != begin && Descends(middle, begin)) return {middle, middle, 0.0};
+    if (middle >= 0 && middle != begin && Has(middle, begin)) return {middle, middle, 0.0};
     return {begin, end, 0.5};
   }
 
@@ -147,8 +214,12 @@ class JointFinder {
     for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
       found_.sources[bone] = {found_.joints[bone], found_.joints[bone], 0.0};
     }
-    Source(BoneId::kAbdomen) = Between(At(BoneId::kPelvis), At(BoneId::kChest));
-    Source(BoneId::kNeck) = Between(At(BoneId::kChest), At(BoneId::kHead));
+    if (At(BoneId::kAbdomen) < 0) {
+      Source(BoneId::kAbdomen) = Between(At(BoneId::kPelvis), At(BoneId::kChest));
+    }
+    if (At(BoneId::kNeck) < 0) {
+      Source(BoneId::kNeck) = Between(At(BoneId::kChest), At(BoneId::kHead));
+    }
     // A joint between elbow and wrist turns the lower end of the forearm; the whole bone takes
     // half.
     for (const auto& [forearm, hand] : {std::pair{BoneId::kLeftForearm, BoneId::kLeftHand},
@@ -159,12 +230,32 @@ class JointFinder {
 
   const MocapClip& clip_;
   std::vector<std::string> names_;
+  Joints given_;
   std::vector<std::string> missing_;
   MocapJoints found_;
 };
 
 }  // namespace
 
-MocapJoints FindMocapJoints(const MocapClip& clip) { return JointFinder(clip).Find(); }
+void MocapJointName::Describe(Fields& f) {
+  f.Text("file", file, {.meaning = "name of a joint in the motion file", .required = true});
+  f.Text("ours", ours,
+         {.meaning = "the joint of the skeleton that it is (FORMAT.md): left_shoulder, left_elbow, "
+                     "left_wrist, left_hip, left_knee, left_ankle, the same on the right, head, "
+                     "pelvis, waist, chest or neck",
+          .required = true});
+}
+
+std::string MocapJointName::Problem() const {
+  if (FindJoint(ours) >= 0) return "";
+  std::vector<std::string> known;
+  for (const BoneInfo& bone : Bones()) known.emplace_back(bone.joint);
+  return fmt::format("ours: expected a joint of the skeleton ({}), got \"{}\"",
+                     fmt::join(known, ", "), ours);
+}
+
+MocapJoints FindMocapJoints(const MocapClip& clip, const std::vector<MocapJointName>& named) {
+  return JointFinder(clip, named).Find();
+}
 
 }  // namespace vitruvia

@@ -25,10 +25,11 @@ struct BodyFrame {
 
 class CapturedMotion final : public Motion {
  public:
-  CapturedMotion(std::vector<BodyFrame> frames, double frame_s)
-      : frames_(std::move(frames)), frame_s_(frame_s) {}
+  CapturedMotion(std::vector<BodyFrame> frames, double frame_s, std::vector<std::string> warnings)
+      : frames_(std::move(frames)), frame_s_(frame_s), warnings_(std::move(warnings)) {}
 
   double duration_s() const override { return frame_s_ * static_cast<double>(frames_.size() - 1); }
+  std::vector<std::string> warnings() const override { return warnings_; }
 
   MotionSample At(double time_s) const override {
     const double place =
@@ -50,82 +51,10 @@ class CapturedMotion final : public Motion {
  private:
   std::vector<BodyFrame> frames_;
   double frame_s_;
+  std::vector<std::string> warnings_;
 };
 
-// The signed coordinate axis nearest to a direction.
-Vector3d NearestAxis(const Vector3d& direction) {
-  Eigen::Index axis = 0;
-  direction.cwiseAbs().maxCoeff(&axis);
-  return std::copysign(1.0, direction[axis]) * Vector3d::Unit(axis);
-}
-
-// --- The clip in the subject's axes and metres
-// -----------------------------------------------------
-
-double LegLength(const std::vector<Vector3d>& rest, const MocapJoints& found) {
-  const auto at = [&](BoneId bone) -> const Vector3d& {
-    return rest[static_cast<std::size_t>(found.joints[Index(bone)])];
-  };
-  return 0.5 *
-         ((at(kLeftShin) - at(kLeftThigh)).norm() + (at(kLeftFoot) - at(kLeftShin)).norm() +
-          (at(kRightShin) - at(kRightThigh)).norm() + (at(kRightFoot) - at(kRightShin)).norm());
-}
-
-double LegLength(const Skeleton& skeleton) {
-  const auto& at = skeleton.joints;
-  return 0.5 * ((at[Index(kLeftShin)] - at[Index(kLeftThigh)]).norm() +
-                (at[Index(kLeftFoot)] - at[Index(kLeftShin)]).norm() +
-                (at[Index(kRightShin)] - at[Index(kRightThigh)]).norm() +
-                (at[Index(kRightFoot)] - at[Index(kRightShin)]).norm());
-}
-
-// Which of the file's axes are left, up and front: legs hang down, the left hip is on the left.
-Matrix3d SubjectFromFile(const MocapClip& clip, const MocapJoints& found) {
-  const std::vector<Vector3d> rest = RestPositions(clip);
-  const auto at = [&](BoneId bone) -> const Vector3d& {
-    return rest[static_cast<std::size_t>(found.joints[Index(bone)])];
-  };
-  const Vector3d up =
-      NearestAxis(at(kLeftThigh) + at(kRightThigh) - at(kLeftFoot) - at(kRightFoot));
-  Vector3d left = at(kLeftThigh) - at(kRightThigh);
-  left = NearestAxis(left - left.dot(up) * up);
-  Matrix3d rows;
-  rows << left.transpose(), up.transpose(), left.cross(up).transpose();
-  return rows;
-}
-
-// Scaled, in the subject's axes, and turned to face the front in the first frame.
-MocapClip InSubjectFrame(MocapClip clip, const MocapJoints& found, double leg_length_m) {
-  const double file_leg = LegLength(RestPositions(clip), found);
-  if (!(file_leg > 0.0)) {
-    throw DataError(fmt::format("{}: the legs have no length", clip.file.string()));
-  }
-  const double metres_per_unit = leg_length_m / file_leg;
-  const Matrix3d axes = SubjectFromFile(clip, found);
-  for (MocapJoint& joint : clip.joints) {
-    joint.offset = metres_per_unit * (axes * joint.offset);
-    joint.tip = metres_per_unit * (axes * joint.tip);
-  }
-  const Quaterniond turn(axes);
-  for (MocapFrame& frame : clip.frames) {
-    frame.root_position = metres_per_unit * (axes * frame.root_position);
-    for (Quaterniond& rotation : frame.rotations) rotation = turn * rotation * turn.conjugate();
-  }
-  const MocapPose first = PoseOf(clip, clip.frames[0]);
-  const auto pelvis = static_cast<std::size_t>(found.joints[Index(kPelvis)]);
-  const Vector3d facing = first.rotations[pelvis].col(2);
-  const Quaterniond front(
-      Eigen::AngleAxisd(-std::atan2(facing.x(), facing.z()), Vector3d::UnitY()));
-  const Vector3d start(first.positions[pelvis].x(), 0.0, first.positions[pelvis].z());
-  for (MocapFrame& frame : clip.frames) {
-    frame.root_position = front * (frame.root_position - start);
-    frame.rotations[0] = front * frame.rotations[0];
-  }
-  return clip;
-}
-
 // --- Alignments: what turns our rest pose into the clip's
-// --------------------------------------------
 
 using Alignments = std::array<Matrix3d, kBoneCount>;
 
@@ -149,9 +78,7 @@ Matrix3d AlignFoot(const Vector3d& our_foot, const Vector3d& their_shin,
 Alignments FindAlignments(const MocapClip& clip, const MocapJoints& found,
                           const Skeleton& skeleton) {
   const std::vector<Vector3d> rest = RestPositions(clip);
-  const auto joint = [&](BoneId bone) {
-    return static_cast<std::size_t>(found.joints[Index(bone)]);
-  };
+  const auto joint = [&](BoneId bone) { return found.At(bone); };
   const auto ours = [&](BoneId bone) -> Vector3d {
     return skeleton.tips[Index(bone)] - skeleton.joints[Index(bone)];
   };
@@ -185,7 +112,6 @@ Alignments FindAlignments(const MocapClip& clip, const MocapJoints& found,
 }
 
 // --- Frames
-// ------------------------------------------------------------------------------------------
 
 class Retargeter {
  public:
@@ -201,6 +127,7 @@ class Retargeter {
     BodyFrame frame;
     for (std::size_t bone = 0; bone < kBoneCount; ++bone) {
       turned[bone] = SourceRotation(pose, found_.sources[bone]) * Quaterniond(alignments_[bone]);
+      if (!captured.offsets.empty()) PointAlongLimb(bone, pose, turned[bone]);
       const int parent = Bones()[bone].parent;
       frame.local_rotations[bone] =
           parent < 0 ? turned[bone]
@@ -217,11 +144,24 @@ class Retargeter {
     return from.slerp(source.share, to);
   }
 
+  // Where joints move against their parents, a limb's bone points from joint to joint, not where
+  // its rotation alone takes it.
+  void PointAlongLimb(std::size_t bone, const MocapPose& pose, Quaterniond& turned) const {
+    for (const auto& [from, to] :
+         {std::pair{kLeftUpperArm, kLeftForearm}, std::pair{kLeftForearm, kLeftHand},
+          std::pair{kRightUpperArm, kRightForearm}, std::pair{kRightForearm, kRightHand},
+          std::pair{kLeftThigh, kLeftShin}, std::pair{kLeftShin, kLeftFoot},
+          std::pair{kRightThigh, kRightShin}, std::pair{kRightShin, kRightFoot}}) {
+      if (Index(from) != bone) continue;
+      const Vector3d ours = turned * (skeleton_.tips[bone] - skeleton_.joints[bone]);
+      const Vector3d theirs = pose.positions[found_.At(to)] - pose.positions[found_.At(from)];
+      turned = Quaterniond(AlignLimb(ours, theirs)) * turned;
+    }
+  }
+
   // Puts our hips where the clip's are.
   Vector3d PelvisPosition(const MocapPose& pose, const Quaterniond& pelvis) const {
-    const auto at = [&](BoneId bone) -> const Vector3d& {
-      return pose.positions[static_cast<std::size_t>(found_.joints[Index(bone)])];
-    };
+    const auto at = [&](BoneId bone) -> const Vector3d& { return pose.positions[found_.At(bone)]; };
     const Vector3d hips = 0.5 * (at(kLeftThigh) + at(kRightThigh));
     const auto& ours = skeleton_.joints;
     const Vector3d our_hips = 0.5 * (ours[Index(kLeftThigh)] + ours[Index(kRightThigh)]);
@@ -236,19 +176,17 @@ class Retargeter {
 
 }  // namespace
 
-std::unique_ptr<Motion> Retarget(const MocapClip& captured, const Skeleton& skeleton) {
-  const MocapJoints found = FindMocapJoints(captured);
-  const double leg_length_m = LegLength(skeleton);
-  const MocapClip clip = InSubjectFrame(captured, found, leg_length_m);
-  const Retargeter retargeter(clip, found, skeleton);
-  const std::vector<double> clearances_m = Clearances(clip, found, leg_length_m);
+std::unique_ptr<Motion> Retarget(const MocapPerformer& performer, const Skeleton& skeleton) {
+  const MocapClip& clip = performer.clip;
+  const Retargeter retargeter(clip, performer.joints, skeleton);
+  const std::vector<double> clearances_m = Clearances(clip, performer.joints, LegLength(skeleton));
   std::vector<BodyFrame> frames;
   frames.reserve(clip.frames.size());
   for (std::size_t i = 0; i < clip.frames.size(); ++i) {
     frames.push_back(retargeter.FrameOf(clip.frames[i]));
     frames.back().clearance_m = clearances_m[i];
   }
-  return std::make_unique<CapturedMotion>(std::move(frames), clip.frame_s);
+  return std::make_unique<CapturedMotion>(std::move(frames), clip.frame_s, performer.Warnings());
 }
 
 }  // namespace vitruvia

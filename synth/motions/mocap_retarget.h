@@ -8,14 +8,12 @@
 
 #include <memory>
 
-#include "synth/motions/mocap_clip.h"
+#include "synth/motions/mocap_performer.h"
 #include "synth/motions/motion.h"
 
 namespace vitruvia {
 
-// Lengths are scaled by the ratio of leg lengths, so the file's unit does not matter. Samples are
-// grounded: the body stands on the floor, and leaves it as far as the performer jumps. DataError if
-// the clip's joints are not those of a human.
-std::unique_ptr<Motion> Retarget(const MocapClip& clip, const Skeleton& skeleton);
+// Samples are grounded: the body stands on the floor, and leaves it as far as the performer jumps.
+std::unique_ptr<Motion> Retarget(const MocapPerformer& performer, const Skeleton& skeleton);
 
 }  // namespace vitruvia

@@ -5,8 +5,9 @@
 
 #include "core/error.h"
 #include "math/angles.h"
+#include "synth/motions/bvh.h"
 #include "synth/motions/keyframes.h"
-#include "synth/motions/mocap.h"
+#include "synth/motions/mocap_retarget.h"
 #include "synth/motions/smooth_step.h"
 
 namespace vitruvia {
@@ -29,6 +30,9 @@ class MotionAfterRest final : public Motion {
   double duration_s() const override {
     return LeadIn_s() + (motion_->duration_s() - settings_.start_s) / settings_.speed;
   }
+
+  bool repeats() const override { return motion_->repeats(); }
+  std::vector<std::string> warnings() const override { return motion_->warnings(); }
 
   MotionSample At(double time_s) const override {
     if (time_s >= LeadIn_s()) {
@@ -77,9 +81,8 @@ std::unique_ptr<Motion> LoadFile(const MotionSettings& settings, const Skeleton&
     case MotionSource::kKeyframes:
       return MakeKeyframedMotion(ReadKeyframes(settings.file), skeleton);
     case MotionSource::kCmu:
-      return LoadAsfAmc(settings.file, settings.skeleton, skeleton);
     case MotionSource::kBvh:
-      return LoadBvh(settings.file, skeleton);
+      return Retarget(LoadPerformer(settings, skeleton), skeleton);
   }
   throw std::logic_error("unknown motion source");
 }
@@ -96,7 +99,9 @@ void MotionSettings::Describe(Fields& f) {
   f.File("file", file, {.meaning = "the motion", .required = true});
   if (f.Applies(source == MotionSource::kCmu)) {
     f.File("skeleton", skeleton, {.meaning = "the .asf file of the .amc", .required = true});
+    f.Visit(amc);
   }
+  if (f.Applies(source != MotionSource::kKeyframes)) f.Visit(mocap);
   f.Number("start_s", start_s,
            {.meaning = "time in the motion at which the sequence begins", .unit = "s", .min = 0.0});
   f.Number("speed", speed, {.meaning = "playback rate", .min = 0.01, .max = 100.0});
@@ -112,6 +117,15 @@ void MotionSettings::Describe(Fields& f) {
             .unit = "deg",
             .min = -360.0,
             .max = 360.0});
+}
+
+MocapPerformer LoadPerformer(const MotionSettings& settings, const Skeleton& skeleton) {
+  Require(settings.source != MotionSource::kKeyframes, "{}: key frames have no performer",
+          settings.file.string());
+  MocapClip clip = settings.source == MotionSource::kBvh
+                       ? ReadBvh(settings.file)
+                       : ReadAsfAmc(settings.file, settings.skeleton, settings.amc);
+  return Understand(std::move(clip), settings.mocap, skeleton);
 }
 
 std::unique_ptr<Motion> LoadMotion(const MotionSettings& settings, const Skeleton& skeleton) {

@@ -3,9 +3,13 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "body/skeleton.h"
 #include "config/settings.h"
+#include "synth/motions/asf_amc.h"
+#include "synth/motions/mocap_performer.h"
 
 namespace vitruvia {
 
@@ -15,6 +19,8 @@ struct MotionSettings {
   MotionSource source = MotionSource::kKeyframes;
   std::filesystem::path file;      // .json, .amc or .bvh
   std::filesystem::path skeleton;  // .asf, cmu only
+  AmcSettings amc;                 // cmu only
+  MocapSettings mocap;             // cmu and bvh
   double start_s = 0.0;            // time in the motion at which the sequence begins
   double speed = 1.0;              // playback rate
   double rest_s = 0.5;             // the subject stands in the T-pose that long, first
@@ -37,7 +43,13 @@ class Motion {
   virtual ~Motion() = default;
   virtual MotionSample At(double time_s) const = 0;  // 0 … duration; held at the ends, or looped
   virtual double duration_s() const = 0;
+  virtual bool repeats() const { return false; }  // for ever; the last pose is held otherwise
+  // What its file leaves in doubt: whole sentences that name the file.
+  virtual std::vector<std::string> warnings() const { return {}; }
 };
+
+// A motion capture file as it is understood for a body; misuse if the source is key frames.
+MocapPerformer LoadPerformer(const MotionSettings& settings, const Skeleton& skeleton);
 
 // The motion retargeted to a body, with the T-pose lead-in of the settings. DataError / ConfigError
 // naming the file and line on damaged files, unknown joints or angles beyond a joint's limits.

@@ -150,8 +150,23 @@ void RequireInRange(const std::vector<Vector3f>& vertices_in_camera, int frame) 
   }
 }
 
-void Warn(const std::string& warning) {
-  if (!warning.empty()) PrintMessage("warning: {}\n", warning);
+// What somebody who reads the sequence should know: of the motion's file, and of a scene that goes
+// on when its motion has ended.
+std::vector<std::string> MotionWarnings(const SceneSettings& settings, const Motion& motion) {
+  std::vector<std::string> warnings = motion.warnings();
+  if (motion.repeats()) return warnings;
+  int held = 0;
+  for (int frame = 0; frame < settings.frames; ++frame) {
+    held += frame / settings.fps > motion.duration_s() + 0.5 / settings.fps;
+  }
+  if (held > 0) {
+    warnings.push_back(fmt::format(
+        "{}: the motion ends after {:.2f} s, the scene's {} frames at {:g} frames/s take {:.2f} s: "
+        "the last {} frames hold the last pose",
+        settings.motion.file.string(), motion.duration_s(), settings.frames, settings.fps,
+        settings.frames / settings.fps, held));
+  }
+  return warnings;
 }
 
 // The scene at any time: its body, dressed and posed, and what a camera without noise sees of it.
@@ -268,9 +283,11 @@ void RecordSequence(const SceneSettings& settings, const BodyModel& truth, const
     }
   }
   writer.Note("template_moved_by_true_bones", misfit.Summary());
-  const std::string warning = watch.Warning(settings.frames);
-  Warn(warning);
-  if (!warning.empty()) writer.Note("warnings", Json::array({warning}));
+  std::vector<std::string> warnings = MotionWarnings(settings, motion);
+  const std::string out_of_view = watch.Warning(settings.frames);
+  if (!out_of_view.empty()) warnings.push_back(out_of_view);
+  for (const std::string& warning : warnings) PrintMessage("warning: {}\n", warning);
+  if (!warnings.empty()) writer.Note("warnings", warnings);
   writer.Finish();
 }
 

@@ -1,6 +1,7 @@
 // Motion capture files written for a test: a performer of given build, posed at will.
 #pragma once
 
+#include <cmath>
 #include <fstream>
 #include <functional>
 #include <map>
@@ -10,8 +11,22 @@
 #include <fmt/format.h>
 
 #include "body/skeleton.h"
+#include "synth/motions/bvh.h"
+#include "synth/motions/mocap_retarget.h"
 
 namespace vitruvia {
+
+inline std::unique_ptr<Motion> LoadBvh(const std::filesystem::path& bvh, const Skeleton& skeleton,
+                                       const MocapSettings& settings = {}) {
+  return Retarget(Understand(ReadBvh(bvh), settings, skeleton), skeleton);
+}
+
+inline std::unique_ptr<Motion> LoadAsfAmc(const std::filesystem::path& amc,
+                                          const std::filesystem::path& asf,
+                                          const Skeleton& skeleton,
+                                          const AmcSettings& amc_settings = {}) {
+  return Retarget(Understand(ReadAsfAmc(amc, asf, amc_settings), {}, skeleton), skeleton);
+}
 
 // Angles about x, y and z in degrees by joint name, and where the root is.
 struct TestFrame {
@@ -19,7 +34,8 @@ struct TestFrame {
   std::map<std::string, Vector3<double>> angles_deg;
 };
 
-// A BVH file of a performer with the joints of `skeleton`, in the T-pose at rest, 100 frames/s.
+// A BVH file of a performer with the joints of `skeleton`, 100 frames/s; in the T-pose where all
+// angles are zero. Unless `zero_pose` says otherwise, that is also where all numbers are zero.
 class TestBvh {
  public:
   explicit TestBvh(const Skeleton& skeleton) : skeleton_(skeleton) {}
@@ -32,16 +48,38 @@ class TestBvh {
   // file axes from the skeleton's: x left, y up, z front
   std::function<Vector3<double>(const Vector3<double>&)> to_file = [](const auto& v) { return v; };
 
+  // What turns each bone from where it is when all numbers are zero to where the T-pose has it.
+  std::array<Matrix3<double>, kBoneCount> zero_pose = NoTurns();
+  // Names of joints in the middle of hands and feet, "" where there is none.
+  std::array<std::string, kBoneCount> beyond;
+  // A fixed joint above the hips, which then carry the body's place; "" for none.
+  std::string above;
+  bool places_are_added = false;  // to the OFFSET of the hips, with `above`
+
   std::string Text(const std::vector<TestFrame>& frames) const {
-    std::string text = "HIERARCHY\n" + Joint(0, "ROOT");
+    std::string text = "HIERARCHY\n";
+    if (!above.empty()) {
+      text += "ROOT " + above + "\n{\nOFFSET 0 0 0\n";
+      text += "CHANNELS 6 Xposition Yposition Zposition Zrotation Yrotation Xrotation\n";
+    }
+    text += Joint(0, above.empty() ? "ROOT" : "JOINT");
+    if (!above.empty()) text += "}\n";
     text += fmt::format("MOTION\nFrames: {}\nFrame Time: 0.01\n", frames.size());
     for (const TestFrame& frame : frames) text += Line(frame);
     return text;
   }
 
  private:
-  std::string Offset(const Vector3<double>& offset) const {
-    const Vector3<double> v = unit * to_file(offset);
+  static std::array<Matrix3<double>, kBoneCount> NoTurns() {
+    std::array<Matrix3<double>, kBoneCount> turns;
+    turns.fill(Matrix3<double>::Identity());
+    return turns;
+  }
+
+  // In the axes of `bone`, which it hangs on; -1 for none.
+  std::string Offset(const Vector3<double>& offset, int bone) const {
+    Vector3<double> v = unit * to_file(offset);
+    if (bone >= 0) v = zero_pose[static_cast<std::size_t>(bone)].transpose() * v;
     return fmt::format("OFFSET {:.12f} {:.12f} {:.12f}\n", v.x(), v.y(), v.z());
   }
 
@@ -49,7 +87,8 @@ class TestBvh {
     const int parent = Bones()[bone].parent;
     const Vector3<double>& joint = skeleton_.joints[bone];
     std::string text = keyword + " " + names[bone] + "\n{\n";
-    text += Offset(parent < 0 ? joint : joint - skeleton_.joints[static_cast<std::size_t>(parent)]);
+    text += Offset(parent < 0 ? joint : joint - skeleton_.joints[static_cast<std::size_t>(parent)],
+                   parent);
     text += parent < 0 ? "CHANNELS 6 Xposition Yposition Zposition" : "CHANNELS 3";
     text += " Zrotation Yrotation Xrotation\n";
     bool leaf = true;
@@ -58,23 +97,54 @@ class TestBvh {
       text += Joint(child, "JOINT");
       leaf = false;
     }
-    if (leaf) text += "End Site\n{\n" + Offset(skeleton_.tips[bone] - joint) + "}\n";
+    if (leaf) text += End(bone);
     return text + "}\n";
+  }
+
+  std::string End(std::size_t bone) const {
+    const Vector3<double> tip = skeleton_.tips[bone] - skeleton_.joints[bone];
+    const auto site = [&](double share) {
+      return "End Site\n{\n" + Offset(share * tip, static_cast<int>(bone)) + "}\n";
+    };
+    if (beyond[bone].empty()) return site(1.0);
+    return "JOINT " + beyond[bone] + "\n{\n" + Offset(0.5 * tip, static_cast<int>(bone)) +
+           "CHANNELS 3 Zrotation Yrotation Xrotation\n" + site(0.5) + "}\n";
+  }
+
+  static Matrix3<double> Turn(double degrees, const Vector3<double>& axis) {
+    return ExpSo3<double>(degrees / 57.29577951308232 * axis);
+  }
+
+  // z, y and x that multiply to a rotation, degrees.
+  static Vector3<double> Angles(const Matrix3<double>& r) {
+    const Vector3<double> zyx(std::atan2(r(1, 0), r(0, 0)), std::asin(-r(2, 0)),
+                              std::atan2(r(2, 1), r(2, 2)));
+    return 57.29577951308232 * zyx;
   }
 
   void AddJoint(std::size_t bone, const TestFrame& frame, std::string& line) const {
     const auto found = frame.angles_deg.find(names[bone]);
     const Vector3<double> angles =
         found == frame.angles_deg.end() ? Vector3<double>::Zero() : found->second;
-    line += fmt::format(" {:.12f} {:.12f} {:.12f}", angles.z(), angles.y(), angles.x());
+    const Matrix3<double> turned = Turn(angles.z(), Vector3<double>::UnitZ()) *
+                                   Turn(angles.y(), Vector3<double>::UnitY()) *
+                                   Turn(angles.x(), Vector3<double>::UnitX());
+    const int parent = Bones()[bone].parent;
+    const Matrix3<double> before =
+        parent < 0 ? Matrix3<double>::Identity() : zero_pose[static_cast<std::size_t>(parent)];
+    const Vector3<double> zyx = Angles(before.transpose() * turned * zero_pose[bone]);
+    line += fmt::format(" {:.12f} {:.12f} {:.12f}", zyx[0], zyx[1], zyx[2]);
+    if (!beyond[bone].empty()) line += " 0 0 0";
     for (std::size_t child = bone + 1; child < kBoneCount; ++child) {
       if (Bones()[child].parent == static_cast<int>(bone)) AddJoint(child, frame, line);
     }
   }
 
   std::string Line(const TestFrame& frame) const {
-    const Vector3<double> root = unit * to_file(skeleton_.joints[0] + frame.root);
-    std::string line = fmt::format("{:.12f} {:.12f} {:.12f}", root.x(), root.y(), root.z());
+    const Vector3<double> start = places_are_added ? Vector3<double>::Zero() : skeleton_.joints[0];
+    const Vector3<double> root = unit * to_file(start + frame.root);
+    std::string line = above.empty() ? "" : "0 0 0 0 0 0 ";
+    line += fmt::format("{:.12f} {:.12f} {:.12f}", root.x(), root.y(), root.z());
     AddJoint(0, frame, line);
     return line + "\n";
   }

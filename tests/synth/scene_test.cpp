@@ -58,6 +58,21 @@ void Record(const SceneSettings& scene, const fs::path& folder, double stride_m 
   RecordSequence(scene, truth, subject, RaiseLeftForearm(truth.skeleton, stride_m), folder);
 }
 
+TEST(Recording, SceneThatOutlastsItsMotionIsTold) {
+  const TemporaryFolder folder;
+  SceneSettings scene = SmallScene();
+  scene.motion.file = "raise.json";
+  scene.frames = 8;  // the motion ends in the fourth
+  Record(scene, folder / "long");
+  EXPECT_THAT(ReadJsonFile(folder / "long" / "sequence.json").dump(),
+              AllOf(HasSubstr("raise.json: the motion ends after 1.00 s"),
+                    HasSubstr("take 2.67 s: the last 4 frames hold the last pose")));
+  scene.frames = 4;
+  Record(scene, folder / "right");
+  EXPECT_THAT(ReadJsonFile(folder / "right" / "sequence.json").dump(),
+              testing::Not(HasSubstr("the motion ends")));
+}
+
 TEST(View, LooksUprightFromItsPlaceAtItsPoint) {
   ViewSettings view;
   view.position_m = {1.0, 1.5, 2.0};
