@@ -4,11 +4,11 @@
 
 namespace vitruvia::realtime_scape {
 
-Matrix3<double> InverseOf(const Matrix3<double>& rotation) {
+Matrix3<double> RelativeRotation(const Matrix3<double>& a, const Matrix3<double>& b) {
   constexpr double kRounding = 1e-10;
-  const Matrix3<double> transposed = rotation.transpose();
-  const Matrix3<double> defect = transposed * rotation - Matrix3<double>::Identity();
-  return defect.norm() < kRounding ? transposed : Matrix3<double>(rotation.inverse());
+  const Matrix3<double> defect = a.transpose() * a - Matrix3<double>::Identity();
+  if (defect.norm() < kRounding) return a.transpose() * b;
+  return a.inverse() * b;
 }
 
 LocalRotations LocalRotationsOf(const BodyPose& pose) {
@@ -16,7 +16,7 @@ LocalRotations LocalRotationsOf(const BodyPose& pose) {
   for (int j = 0; j < kBoneCount; ++j) {
     const int parent = Bones()[j].parent;
     local[j] = pose[j].rotation;
-    if (parent >= 0) local[j] = InverseOf(pose[parent].rotation) * pose[j].rotation;
+    if (parent >= 0) local[j] = RelativeRotation(pose[parent].rotation, pose[j].rotation);
   }
   return local;
 }
@@ -25,7 +25,7 @@ double MeanJointAngle(const BodyPose& a, const BodyPose& b) {
   const LocalRotations from = LocalRotationsOf(a), to = LocalRotationsOf(b);
   double sum_rad = 0.0;
   for (int j = 0; j < kBoneCount; ++j) {
-    sum_rad += LogSo3<double>(InverseOf(from[j]) * to[j]).norm();
+    sum_rad += LogSo3<double>(RelativeRotation(from[j], to[j])).norm();
   }
   return sum_rad / kBoneCount;
 }

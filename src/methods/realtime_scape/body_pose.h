@@ -20,9 +20,9 @@ using BodyPose = std::array<BonePose, kBoneCount>;
 
 using LocalRotations = std::array<Matrix3<double>, kBoneCount>;  // parent_from_bone
 
-// The transpose of an orthonormal matrix, the inverse of any other: under a linear rotation update
-// bones have matrices that are not orthonormal.
-Matrix3<double> InverseOf(const Matrix3<double>& rotation);
+// a⁻¹ b. Under a linear rotation update bones have matrices that are not orthonormal; of those the
+// inverse is taken, of all others the transpose.
+Matrix3<double> RelativeRotation(const Matrix3<double>& a, const Matrix3<double>& b);
 
 // R_parent⁻¹ R of every bone; the root's parent is the fixed identity.
 LocalRotations LocalRotationsOf(const BodyPose& pose);

@@ -24,7 +24,7 @@ Prediction PredictPose(const Model& model, const PoseHistory& history,
     const double share = settings.velocity_share *
                          std::pow(settings.hidden_decay, history.visibility.frames_unobserved[j]);
     Matrix3<double>& local = prediction.local_rotations[j];
-    const Matrix3<double> change = InverseOf(before[j]) * local;
+    const Matrix3<double> change = RelativeRotation(before[j], local);
     local = local * ExpSo3<double>(share * LogSo3<double>(change));
 
     BonePose& bone = prediction.pose[j];
