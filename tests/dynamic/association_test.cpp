@@ -113,6 +113,23 @@ TEST(Association, FindsWhatBruteForceFinds) {
   }
 }
 
+TEST(Association, IsTheSameForAnyNumberOfThreads) {
+  const Cloudy c(5, 3000);
+  const AssociationLimits limits{12, 0.1f, 0.2f};
+  std::vector<float> expected_sums;
+  for (const int threads : {1, 2, 3, 4, 7, 64}) {
+    WorkerTeam team(threads);
+    Association association(kCamera, c.surface.layout);
+    Search(c, limits, team, association);
+    ExpectBruteForce(c, limits, association, fmt::format("on {} threads", threads));
+    Observations<float> observations;
+    observations.Reset(c.surface.layout.slot_count());
+    association.Observe(c.cloud, team, observations);
+    if (threads == 1) expected_sums = observations.sums;
+    EXPECT_EQ(observations.sums, expected_sums) << threads << " threads";
+  }
+}
+
 TEST(Association, ForgetsWhatItFoundBefore) {
   WorkerTeam team(2);
   Cloudy c(3, 3000);

@@ -3,11 +3,13 @@
 
 #include <limits>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "dynamic_fixtures.h"
+#include "methods/dynamic/energy_terms.h"
 #include "methods/dynamic/pose_solver.h"
 #include "support/arm_stage.h"
 
@@ -58,9 +60,42 @@ TEST(Dynamic, CarriesPoseAndShapeOverAnEmptyFrameAndGoesOn) {
   EXPECT_EQ(empty.outcome, Outcome::kNoData);
   EXPECT_EQ(empty.iterations, 0);
   EXPECT_EQ(empty.vertices, before.vertices);
+  EXPECT_GT(before.condition, 1.0);
+  EXPECT_EQ(empty.condition, -1.0);  // nothing was solved
   const TrackResult after = tracker.TrackFrame(stage.Frame(2, 0.0));
   EXPECT_FALSE(IsFailure(after.outcome)) << after.message;
   EXPECT_LT(stage.MeanError(after, 0.0), 0.01);
+}
+
+std::vector<std::string> NamesOf(const std::vector<NamedValue>& energies) {
+  std::vector<std::string> names;
+  for (const NamedValue& energy : energies) names.push_back(energy.name);
+  return names;
+}
+
+TEST(Dynamic, ReportsEveryTermOfItsEnergyInEveryFrame) {
+  const std::vector<std::string> names(kEnergyTermNames.begin(), kEnergyTermNames.end());
+  for (const Mode mode : {Mode::kFull, Mode::kShapeMatch, Mode::kSmoothBind}) {
+    Stage stage;
+    Settings settings;
+    settings.mode = mode;
+    Dynamic tracker(settings, HumanSkeleton());
+    tracker.Start(stage.body, stage.camera);
+    for (int i = 0; i < 4; ++i) {
+      SCOPED_TRACE(fmt::format("mode {}, frame {}", static_cast<int>(mode), i));
+      const bool is_empty = i == 2;
+      const DepthFrame frame =
+          is_empty ? DepthFrame{i, i / 30.0, DepthImage(320, 240)} : stage.Frame(i, 0.3 + 0.04 * i);
+      const TrackResult result = tracker.TrackFrame(frame);
+      ASSERT_EQ(NamesOf(result.energies), names);
+      const bool has_shape_step =
+          !is_empty && (mode == Mode::kFull || (mode == Mode::kShapeMatch && i == 0));
+      for (int term = 0; term < kEnergyTermCount; ++term) {
+        const bool is_evaluated = term >= kShapeDataTerm ? has_shape_step : !is_empty;
+        EXPECT_EQ(result.energies[term].value > 0.0, is_evaluated) << names[term];
+      }
+    }
+  }
 }
 
 TEST(Dynamic, SaysLostWhenTheDataAreElsewhere) {
@@ -71,7 +106,7 @@ TEST(Dynamic, SaysLostWhenTheDataAreElsewhere) {
   const TrackResult result = tracker.TrackFrame({1, 1 / 30.0, DepthImage(320, 240, 6.0f)});
   EXPECT_EQ(result.outcome, Outcome::kLost);
   EXPECT_NE(result.message.find("found a vertex"), std::string::npos);
-  for (std::size_t j = 0; j < result.joints.size(); ++j) {  // nothing seen: all joints held
+  for (std::size_t j = 0; j < result.joints.size(); ++j) {  // nothing observed: all joints frozen
     EXPECT_EQ(result.joints[j], before.joints[j]);
   }
 }
@@ -133,7 +168,7 @@ TEST(Dynamic, RefusesACutoffThatRises) {
   EXPECT_THAT(settings.Problem(), testing::HasSubstr("expected at most cutoff_m, 0.12 m"));
 }
 
-TEST(Dynamic, HoldsWhatIsOutOfView) {
+TEST(Dynamic, FreezesWhatIsOutOfView) {
   Stage stage;
   Dynamic tracker(Settings{}, HumanSkeleton());
   tracker.Start(stage.body, stage.camera);
@@ -167,20 +202,35 @@ TEST(Dynamic, DoesNotDriftWhileABodyStands) {
   }
 }
 
-TEST(Dynamic, GivesTheSameResultOnOneThreadAndOnTwo) {
-  const auto run = [](int threads) {
-    Stage stage;
-    Settings settings;
-    settings.threads = threads;
-    Dynamic tracker(settings, HumanSkeleton());
-    tracker.Start(stage.body, stage.camera);
-    TrackResult result;
-    for (int i = 0; i < 4; ++i) result = tracker.TrackFrame(stage.Frame(i, 0.05 * i));
-    return result;
-  };
-  const TrackResult one = run(1), two = run(2);
-  EXPECT_EQ(one.vertices, two.vertices);
-  EXPECT_EQ(one.energies[0].value, two.energies[0].value);
+// All frames' vertices and energies, the pose step on all vertices or on a quarter of them.
+std::vector<TrackResult> ResultsOn(int threads, int stride) {
+  Stage stage;
+  Settings settings;
+  settings.threads = threads;
+  settings.association.pose_vertex_stride = stride;
+  settings.association.pose_pixel_stride = stride;
+  Dynamic tracker(settings, HumanSkeleton());
+  tracker.Start(stage.body, stage.camera);
+  std::vector<TrackResult> results;
+  for (int i = 0; i < 3; ++i) results.push_back(tracker.TrackFrame(stage.Frame(i, 0.05 * i)));
+  return results;
+}
+
+TEST(Dynamic, GivesTheSameBitsOnAnyNumberOfThreads) {
+  for (const int stride : {1, 2}) {
+    const std::vector<TrackResult> expected = ResultsOn(1, stride);
+    for (const int threads : {2, 3, 4}) {
+      const std::vector<TrackResult> results = ResultsOn(threads, stride);
+      for (std::size_t i = 0; i < results.size(); ++i) {
+        SCOPED_TRACE(fmt::format("frame {}, {} threads, stride {}", i, threads, stride));
+        EXPECT_EQ(results[i].vertices, expected[i].vertices);
+        EXPECT_EQ(results[i].joints, expected[i].joints);
+        EXPECT_EQ(results[i].condition, expected[i].condition);
+        for (std::size_t k = 0; k < results[i].energies.size(); ++k)
+          EXPECT_EQ(results[i].energies[k].value, expected[i].energies[k].value) << k;
+      }
+    }
+  }
 }
 
 TEST(Dynamic, IgnoresPixelsThatAreNoNumbers) {
@@ -246,18 +296,22 @@ struct SolverStage {
 
 TEST(PoseSolver, SolvesTheDampedEquationsWithTheDefaultPosePrior) {
   SolverStage s;
-  const DampedStep step{0.3, 1e-3, 0.0};
+  const PoseStepWeights weights{0.3, 1e-3, 0.0};
   Eigen::MatrixXd system = s.equations.hessian;
   Eigen::VectorXd right = s.equations.gradient;
+  double default_pose_energy = 0.0;
   for (int k = 0; k < s.tree.joint_count(); ++k) {
     const double d = s.tree.joints()[k].prior * s.solver.MovedVertices(k);
-    system(k, k) += step.damping + step.default_pose_weight * d;
-    right[k] += step.default_pose_weight * d * s.theta[k];
+    system(k, k) += weights.damping + weights.default_pose_weight * d;
+    right[k] += weights.default_pose_weight * d * s.theta[k];
+    default_pose_energy += weights.default_pose_weight * d * s.theta[k] * s.theta[k];
   }
   const Eigen::VectorXd expected = s.theta - system.inverse() * right;
-  s.solver.Step(s.tree, s.equations, s.may_move, step, s.theta);
-  EXPECT_TRUE(s.solver.solved());
+  const PoseStep step = s.solver.Step(s.tree, s.equations, s.may_move, weights, s.theta);
+  EXPECT_TRUE(step.solved);
   EXPECT_LT((s.theta - expected).norm(), 1e-10);
+  EXPECT_GT(default_pose_energy, 0.0);
+  EXPECT_NEAR(step.default_pose_energy, default_pose_energy, 1e-12 * default_pose_energy);
 }
 
 TEST(PoseSolver, CountsTheVerticesThatAJointMoves) {
@@ -265,7 +319,7 @@ TEST(PoseSolver, CountsTheVerticesThatAJointMoves) {
   EXPECT_NEAR(s.solver.MovedVertices(0), static_cast<double>(s.body.rest.vertices.size()), 1e-3);
 }
 
-TEST(PoseSolver, HoldsJointsThatMayNotMoveOrAreNotSeen) {
+TEST(PoseSolver, FreezesJointsThatMayNotMoveOrAreNotObserved) {
   SolverStage s;
   const Eigen::VectorXd before = s.theta;
   const int hand = static_cast<int>(BoneId::kLeftHand);
@@ -276,20 +330,20 @@ TEST(PoseSolver, HoldsJointsThatMayNotMoveOrAreNotSeen) {
   EXPECT_NE(s.theta[1], before[1]);
   const int wrist = s.tree.ChainOf(hand).back();
   EXPECT_EQ(s.theta[wrist], before[wrist]);
-  EXPECT_EQ(s.solver.held(), 3);  // the slide, and the two hinges of the wrist
+  int frozen = 0;
+  for (int k = 0; k < s.tree.joint_count(); ++k) frozen += s.solver.IsFrozen(k) ? 1 : 0;
+  EXPECT_EQ(frozen, 3);  // the prismatic joint, and the two hinges of the wrist
 }
 
 TEST(PoseSolver, LeavesThePoseWhereTheEquationsAreBroken) {
   SolverStage s;
   const Eigen::VectorXd before = s.theta;
   s.equations.hessian(2, 2) = -1e9;
-  s.solver.Step(s.tree, s.equations, s.may_move, {0.3, 0.0, 0.0}, s.theta);
-  EXPECT_FALSE(s.solver.solved());
+  EXPECT_FALSE(s.solver.Step(s.tree, s.equations, s.may_move, {0.3, 0.0, 0.0}, s.theta).solved);
   EXPECT_EQ(s.theta, before);
   s.equations.hessian(2, 2) = 1.0;
   s.equations.gradient[3] = std::numeric_limits<double>::quiet_NaN();
-  s.solver.Step(s.tree, s.equations, s.may_move, {0.3, 0.0, 0.0}, s.theta);
-  EXPECT_FALSE(s.solver.solved());
+  EXPECT_FALSE(s.solver.Step(s.tree, s.equations, s.may_move, {0.3, 0.0, 0.0}, s.theta).solved);
   EXPECT_EQ(s.theta, before);
 }
 

@@ -1,4 +1,4 @@
-// The normal equations, assembled per link and carried to the joints, against the direct Jacobian
+// The normal equations, assembled per link and reduced to the joints, against the direct Jacobian
 // per joint as the paper writes it and against automatic differentiation.
 #include "methods/dynamic/pose_equations.h"
 
@@ -48,7 +48,7 @@ struct Stage {
       links.AddPatch(static_cast<int>(i), surface, motions, observations);
     }
     PoseEquations equations;
-    links.Carry(surface.layout, tree, pose, equations);
+    links.ReduceToJoints(surface.layout, tree, pose, equations);
     return equations;
   }
 
@@ -250,7 +250,7 @@ TEST(PoseEquations, InSinglePrecisionAreCloseToThoseInDouble) {
     links.AddPatch(static_cast<int>(i), surface, motions, observations);
   }
   PoseEquations equations;
-  links.Carry(surface.layout, stage.tree, stage.pose, equations);
+  links.ReduceToJoints(surface.layout, stage.tree, stage.pose, equations);
   ExpectSame(equations, stage.Assembled(), 1e-4);
 }
 

@@ -1,6 +1,7 @@
 #include "methods/dynamic/shape_step.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -130,26 +131,66 @@ TEST(ShapeStep, DoesWhatTheEquationSays) {
   }
 }
 
+// The three sums of eq. 9, written down once more in double.
+ShapeEnergy BruteForceEnergy(const Stage& s) {
+  ShapeEnergy energy;
+  for (int v = 0; v < s.surface.layout.vertex_count(); ++v) {
+    const int slot = s.surface.layout.slot_of_vertex[v];
+    const Vector3d warp = s.WarpOf(v).cast<double>();
+    energy.magnitude += double{kWeights.magnitude} * warp.squaredNorm();
+    for (const int other : s.neighbors[v]) {
+      if (other < 0) continue;
+      energy.smoothness +=
+          double{kWeights.neighbors} * (warp - s.WarpOf(other).cast<double>()).squaredNorm();
+    }
+    if (s.observations.Count(slot) == 0.0f) continue;
+    const Vector3d offset = (s.surface.posed.At(slot) - s.observations.Mean(slot)).cast<double>();
+    energy.data += std::pow(s.surface.normals.At(slot).cast<double>().dot(offset), 2);
+  }
+  return energy;
+}
+
+TEST(ShapeStep, ReportsTheTermsOfItsEnergy) {
+  Stage stage(1);
+  for (int i = 0; i < 3; ++i) {
+    const ShapeEnergy expected = BruteForceEnergy(stage);
+    const ShapeEnergy energy =
+        stage.shape.Iterate(stage.observations, kWeights, stage.team, stage.surface);
+    stage.Pose();
+    EXPECT_NEAR(energy.data, expected.data, 1e-4 * expected.data);
+    EXPECT_NEAR(energy.magnitude, expected.magnitude, 1e-4 * expected.magnitude);
+    EXPECT_NEAR(energy.smoothness, expected.smoothness, 1e-4 * expected.smoothness);
+    EXPECT_GT(energy.data, 0.0);
+    EXPECT_EQ(energy.smoothness > 0.0, i > 0);  // all warps begin at 0
+  }
+}
+
 TEST(ShapeStep, LowersItsEnergy) {
   Stage stage(1);
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 10; ++i) {
-    stage.shape.Iterate(stage.observations, kWeights, stage.team, stage.surface);
+    const double energy =
+        stage.shape.Iterate(stage.observations, kWeights, stage.team, stage.surface).Total();
     stage.Pose();
-    EXPECT_LT(stage.shape.energy(), before);
-    before = stage.shape.energy();
+    EXPECT_LT(energy, before);
+    before = energy;
   }
 }
 
-TEST(ShapeStep, IsTheSameOnOneThreadAndOnTwo) {
-  Stage one(1), two(2);
-  for (int i = 0; i < 3; ++i) {
-    one.shape.Iterate(one.observations, kWeights, one.team, one.surface);
-    two.shape.Iterate(two.observations, kWeights, two.team, two.surface);
-  }
-  EXPECT_EQ(one.shape.energy(), two.shape.energy());
-  for (int v = 0; v < one.surface.layout.vertex_count(); ++v) {
-    EXPECT_EQ(one.WarpOf(v), two.WarpOf(v)) << v;
+TEST(ShapeStep, IsTheSameForAnyNumberOfThreads) {
+  for (const int threads : {2, 3, 4}) {
+    Stage one(1), several(threads);
+    for (int i = 0; i < 3; ++i) {
+      const double expected =
+          one.shape.Iterate(one.observations, kWeights, one.team, one.surface).Total();
+      const double energy =
+          several.shape.Iterate(several.observations, kWeights, several.team, several.surface)
+              .Total();
+      EXPECT_EQ(energy, expected) << threads << " threads";
+    }
+    for (int v = 0; v < one.surface.layout.vertex_count(); ++v) {
+      EXPECT_EQ(one.WarpOf(v), several.WarpOf(v)) << v;
+    }
   }
 }
 

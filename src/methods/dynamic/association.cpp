@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 
 namespace vitruvia::dynamic {
 namespace {
@@ -11,7 +12,6 @@ namespace {
 constexpr float kNearest_m = 0.05f;    // vertices nearer to the camera are not projected
 constexpr float kRounding_px = 1e-2f;  // the search goes that much farther than exact numbers ask
 constexpr int kPointsPerRange = 512;
-constexpr int kParts = 2;  // of buckets and sums, each filled without waiting for the other
 
 // The smallest of eight lanes.
 template <class Eight>
@@ -93,30 +93,39 @@ void Association::ProjectPatch(int patch, const Surface<float>& surface,
   views_[patch] = {count, Smallest(lowest), -Smallest(-highest)};
 }
 
-// A counting sort of the slots whose pixels are begin … end: sizes, ends, then the entries, which
-// turn ends into begins.
-void Association::SortIntoBuckets(const Surface<float>& surface, int begin, int end, int facing) {
-  const auto for_each_of_mine = [&](auto&& body) {
-    for (std::size_t patch = 0; patch < views_.size(); ++patch) {
-      const auto& [count, lowest, highest] = views_[patch];
-      if (count == 0 || highest < begin || lowest >= end) continue;
-      const int first = layout_->patches[patch].begin;
-      for (int i = first; i < first + count; ++i) {
-        const int pixel = pixels_[facing_[i]];
-        if (pixel >= begin && pixel < end) body(facing_[i], pixel);
-      }
+// Calls body(slot, pixel) for the facing slots whose pixels are begin … end, patch after patch.
+template <class Body>
+void Association::ForEachFacingSlot(int begin_pixel, int end_pixel, const Body& body) const {
+  for (std::size_t patch = 0; patch < views_.size(); ++patch) {
+    const auto& [count, lowest, highest] = views_[patch];
+    if (count == 0 || highest < begin_pixel || lowest >= end_pixel) continue;
+    const int first = layout_->patches[patch].begin;
+    for (int i = first; i < first + count; ++i) {
+      const int pixel = pixels_[facing_[i]];
+      if (pixel >= begin_pixel && pixel < end_pixel) body(facing_[i], pixel);
     }
-  };
-  std::fill(bucket_begin_.begin() + begin, bucket_begin_.begin() + end, 0);
+  }
+}
+
+// First pass of a counting sort: the size of each bucket of begin … end. Returns their sum.
+int Association::CountBuckets(int begin_pixel, int end_pixel) {
+  std::fill(bucket_begin_.begin() + begin_pixel, bucket_begin_.begin() + end_pixel, 0);
   int entries = 0;
-  for_each_of_mine([&](int, int pixel) {
+  ForEachFacingSlot(begin_pixel, end_pixel, [&](int, int pixel) {
     ++bucket_begin_[pixel];
     ++entries;
   });
-  // The first pixels' entries come first; those of the last end with the last entry.
-  int sum = begin == first_row_ * camera_.width ? 0 : facing - entries;
-  for (int pixel = begin; pixel < end; ++pixel) bucket_begin_[pixel] = sum += bucket_begin_[pixel];
-  for_each_of_mine([&](int slot, int pixel) {
+  return entries;
+}
+
+// Second pass: turns the sizes into ends, then writes the entries, which turns ends into begins.
+void Association::SortIntoBuckets(const Surface<float>& surface, int begin_pixel, int end_pixel,
+                                  int first_entry) {
+  int end = first_entry;
+  for (int pixel = begin_pixel; pixel < end_pixel; ++pixel) {
+    bucket_begin_[pixel] = end += bucket_begin_[pixel];
+  }
+  ForEachFacingSlot(begin_pixel, end_pixel, [&](int slot, int pixel) {
     const int at = --bucket_begin_[pixel];
     sorted_.Set(at, surface.posed.At(slot));
     sorted_slots_[at] = slot;
@@ -134,10 +143,18 @@ void Association::FillBuckets(const Surface<float>& surface, WorkerTeam& team) {
   first_row_ = lowest / camera_.width;
   last_row_ = highest < 0 ? -1 : highest / camera_.width;
   if (facing == 0) return;
-  const int rows = last_row_ + 1 - first_row_;
-  team.For(kParts, 1, [&](int part, int next) {
-    SortIntoBuckets(surface, (first_row_ + rows * part / kParts) * camera_.width,
-                    (first_row_ + rows * next / kParts) * camera_.width, facing);
+  const int parts = team.threads(), rows = last_row_ + 1 - first_row_;
+  const auto first_pixel = [&](int part) {
+    return (first_row_ + rows * part / parts) * camera_.width;
+  };
+  part_entries_.resize(parts);
+  team.For(parts, 1, [&](int part, int next) {
+    part_entries_[part] = CountBuckets(first_pixel(part), first_pixel(next));
+  });
+  // The entries of a part follow those of the parts before it.
+  std::exclusive_scan(part_entries_.begin(), part_entries_.end(), part_entries_.begin(), 0);
+  team.For(parts, 1, [&](int part, int next) {
+    SortIntoBuckets(surface, first_pixel(part), first_pixel(next), part_entries_[part]);
   });
   bucket_begin_[static_cast<std::size_t>(last_row_ + 1) * camera_.width] = facing;
 }
@@ -213,9 +230,10 @@ void Association::FindNearest(const PointCloud& cloud, const AssociationLimits& 
 
 void Association::Observe(const PointCloud& cloud, WorkerTeam& team,
                           Observations<float>& observations) const {
-  team.For(kParts, 1, [&](int part, int next) {
-    const int begin = layout_->slot_count() * part / kParts;
-    const int end = layout_->slot_count() * next / kParts;
+  const int parts = team.threads();
+  team.For(parts, 1, [&](int part, int next) {
+    const int begin = layout_->slot_count() * part / parts;
+    const int end = layout_->slot_count() * next / parts;
     for (std::size_t i = 0; i < nearest_.size(); ++i) {
       const int slot = nearest_[i];
       if (slot >= begin && slot < end) observations.Add(slot, cloud.points[i]);

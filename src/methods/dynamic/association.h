@@ -50,13 +50,15 @@ class Association {
   // image. After PosePatch.
   void ProjectPatch(int patch, const Surface<float>& surface, const AssociationLimits& limits);
   // Sorts the vertices of all patches, once they are projected, into buckets, one for each pixel.
+  // Each thread of the team fills the buckets of its share of the rows.
   void FillBuckets(const Surface<float>& surface, WorkerTeam& team);
   // For each point of the cloud the closest vertex among the buckets of its window, nearer than the
   // cutoff; of equally close ones the one of the lowest slot; −1 if there is none. The search
   // begins at the point's pixel and ends where the width of a pixel alone makes vertices farther
   // than the best so far: exact.
   void FindNearest(const PointCloud& cloud, const AssociationLimits& limits, WorkerTeam& team);
-  // Adds the points to the vertices that they chose, in the cloud's order.
+  // Adds the points to the vertices that they chose, in the cloud's order. Each thread of the team
+  // sums the points of its share of the slots.
   void Observe(const PointCloud& cloud, WorkerTeam& team, Observations<float>& observations) const;
 
   const std::vector<int>& pixels() const { return pixels_; }    // per slot
@@ -76,7 +78,11 @@ class Association {
   struct PatchView {
     int facing = 0, lowest_pixel = 0, highest_pixel = 0;
   };
-  void SortIntoBuckets(const Surface<float>& surface, int begin, int end, int facing);
+  template <class Body>
+  void ForEachFacingSlot(int begin_pixel, int end_pixel, const Body& body) const;
+  int CountBuckets(int begin_pixel, int end_pixel);
+  void SortIntoBuckets(const Surface<float>& surface, int begin_pixel, int end_pixel,
+                       int first_entry);
   void FindLongestRays(int window_px);
   int NearestTo(const Vector3f& point, int pixel, const AssociationLimits& limits) const;
   void ScanRow(const Vector3f& point, int row, int first_column, int last_column, Best& best) const;
@@ -87,6 +93,7 @@ class Association {
   std::vector<int> facing_;  // the slots that have a pixel, from each patch's begin on
   std::vector<PatchView> views_;
   std::vector<int> bucket_begin_;  // per pixel, and one more
+  std::vector<int> part_entries_;  // per thread: the entries of the buckets that it fills
   int first_row_ = 0, last_row_ = -1;
   // The facing slots sorted by pixel: their positions and numbers, and kLanes more that are never
   // taken.

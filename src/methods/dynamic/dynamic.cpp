@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "core/error.h"
 #include "math/angles.h"
+#include "methods/dynamic/energy_terms.h"
 #include "methods/dynamic/level.h"
+#include "methods/dynamic/placement.h"
 #include "methods/dynamic/pose_solver.h"
 #include "methods/dynamic/shape_step.h"
 
@@ -22,43 +23,17 @@ AssociationLimits LimitsOf(int window_px, double cutoff_m, double facing_cosine)
   return {window_px, static_cast<float>(cutoff_m), static_cast<float>(facing_cosine)};
 }
 
-// The vertices of the pose step; none where it takes all vertices and pixels.
+// The vertices of the pose step; none if it uses all vertices and pixels.
 std::vector<int> CoarseVertices(const TrackedMesh& mesh, const AssociationSettings& settings) {
   if (settings.pose_vertex_stride == 1 && settings.pose_pixel_stride == 1) return {};
   return SpreadVertices(mesh, settings.pose_vertex_stride);
 }
 
-// Wide enough for what moved since the last frame at first, and narrow enough in the end that the
-// points of a hand do not pull at the face behind it.
+// Wide in the first iteration, for what moved since the last frame; narrow in the last one, so that
+// the points of a hand do not pull at the face behind it. It falls geometrically.
 double PoseCutoff(const AssociationSettings& settings, int iteration, int iterations) {
   const double done = iterations > 1 ? iteration / (iterations - 1.0) : 1.0;
   return settings.cutoff_m * std::pow(settings.last_cutoff_m / settings.cutoff_m, done);
-}
-
-// Where an upright body that faces the camera stands: its crown at the highest point of the cloud,
-// and the middle of its front where the cloud's middle is. Holds also when only its upper part is
-// in view.
-Rigidd FirstGuess(const std::vector<Vector3f>& rest, const std::vector<Vector3f>& cloud) {
-  const auto mean = [](const std::vector<Vector3f>& points, auto&& weight_of) {
-    Vector3d sum = Vector3d::Zero();
-    double weights = 0.0;
-    for (const Vector3f& p : points) {
-      sum += weight_of(p) * p.cast<double>();
-      weights += weight_of(p);
-    }
-    return Vector3d(sum / std::max(weights, 1.0));
-  };
-  Rigidd guess;
-  guess.rotation = Vector3d(1.0, -1.0, -1.0).asDiagonal();
-  const Vector3d cloud_mean = mean(cloud, [](const Vector3f&) { return 1.0; });
-  const Vector3d front_mean =
-      mean(rest, [](const Vector3f& p) { return p.z() > 0.0f ? 1.0 : 0.0; });
-  float top = std::numeric_limits<float>::infinity(), crown = -top;
-  for (const Vector3f& p : cloud) top = std::min(top, p.y());
-  for (const Vector3f& p : rest) crown = std::max(crown, p.y());
-  guess.translation = {cloud_mean.x() - front_mean.x(), double{top} + double{crown},
-                       cloud_mean.z() + front_mean.z()};
-  return guess;
 }
 
 }  // namespace
@@ -87,7 +62,7 @@ struct Dynamic::Session {
 
   Level& pose_level() { return coarse ? *coarse : fine; }
 
-  // The coarse level's surface follows the fine one's warps.
+  // Copies the fine level's warped rest surface to the coarse level.
   void RefreshCoarse() {
     if (!coarse) return;
     for (std::size_t i = 0; i < coarse_vertices.size(); ++i) {
@@ -101,7 +76,7 @@ struct Dynamic::Session {
   PinholeCamera camera;
   Skeleton skeleton;
   TrackedMesh mesh;
-  int subject_vertices;  // of the mesh's, the first ones
+  int subject_vertices;  // the first ones of the mesh
   KinematicTree tree;
   Level fine;
   std::optional<Level> coarse;
@@ -110,21 +85,28 @@ struct Dynamic::Session {
   RestNormals normals;
   PoseSolver solver;
   WorkerTeam team;
-  std::vector<char> all_joints, root_joints;
+  std::vector<char> all_joints, root_joints;  // per joint: may it move?
 
-  bool placed = false;
+  // Carried from frame to frame.
+  bool placed = false;       // a frame with measurements was seen
   Rigidd camera_from_start;  // T_world
   Eigen::VectorXd theta;
-  Eigen::VectorXd theta_before, step;  // of the last frame; from it to where this one begins
-  TreePose pose;
-  PoseEquations equations;
+  Eigen::VectorXd theta_before;  // at the end of the frame before
+  TreePose pose;                 // of theta
 
   // Of the frame at hand.
-  int frames = 0;
-  int iterations = 0;
-  bool converged = false, solved = true;
-  double matched_share = 0.0;  // of its best iteration
+  PoseEquations equations;
   StepTimes times;
+};
+
+// What fitting one frame gave.
+struct Dynamic::FrameFit {
+  int iterations = 0;  // of the pose
+  bool solved = true;  // by all iterations
+  bool converged = false;
+  double matched_share = 0.0;  // share of the points that found a vertex, in the best iteration
+  double condition = -1.0;     // of the last iteration
+  Energies energies{};
 };
 
 Dynamic::Dynamic(const Settings& settings)
@@ -142,28 +124,24 @@ void Dynamic::Start(const Subject& subject, const PinholeCamera& camera) {
 
 TrackResult Dynamic::TrackFrame(const DepthFrame& frame) {
   Require(session_ != nullptr, "TrackFrame called before Start");
-  BeginFrame(frame);
-  Session& s = *session_;
-  if (!s.fine.cloud.points.empty()) {
-    const bool first = !s.placed;
-    if (first) Place();
-    FitPose(first);
-    FitShape(first);
+  ReadClouds(frame);
+  FrameFit fit;
+  if (!session_->fine.cloud.points.empty()) {
+    const bool is_first = !session_->placed;
+    if (is_first) Place();
+    fit = FitPose(is_first);
+    FitShape(is_first, fit);
+    session_->fine.PoseVertices(session_->pose, session_->team, session_->times);
   }
-  return Result();
+  return Result(fit);
 }
 
-void Dynamic::BeginFrame(const DepthFrame& frame) {
+void Dynamic::ReadClouds(const DepthFrame& frame) {
   Session& s = *session_;
   Require(frame.depth.width() == s.camera.width && frame.depth.height() == s.camera.height,
           "frame {} is {}×{} pixels, the camera {}×{}", frame.index, frame.depth.width(),
           frame.depth.height(), s.camera.width, s.camera.height);
-  s.times.ms.fill(0.0);
-  s.times.watch.LapMs();
-  s.iterations = 0;
-  s.converged = false;
-  s.solved = true;
-  s.matched_share = 0.0;
+  s.times.Restart();
   const auto max_depth = static_cast<float>(settings_.max_depth_m);
   CloudFromDepth(frame.depth, s.camera, 1, max_depth, s.fine.cloud);
   if (s.coarse) {
@@ -177,7 +155,7 @@ void Dynamic::BeginFrame(const DepthFrame& frame) {
 void Dynamic::Place() {
   Session& s = *session_;
   const PlacementSettings& settings = settings_.placement;
-  s.camera_from_start = FirstGuess(s.mesh.vertices, s.fine.cloud.points);
+  s.camera_from_start = UprightPlacement(s.mesh.vertices, s.fine.cloud.points);
   const AssociationLimits limits =
       LimitsOf(settings.window_px, settings.cutoff_m, settings_.association.facing_cosine);
   Level& level = s.pose_level();
@@ -191,98 +169,88 @@ void Dynamic::Place() {
   s.placed = true;
 }
 
-// A frame begins where the joints would be if they went on as they did, or a share of that.
-void Dynamic::Predict() {
+Dynamic::FrameFit Dynamic::FitPose(bool is_first) {
   Session& s = *session_;
-  s.step = settings_.pose.prediction * (s.theta - s.theta_before);
-  s.theta_before = s.theta;
-  s.theta += s.step;
-  s.tree.Clamp(s.theta);
+  const PoseSettings& settings = settings_.pose;
+  const Eigen::VectorXd start = s.theta;
+  if (!is_first) {  // each joint goes on with a share of its last motion
+    const Eigen::VectorXd predicted_step = settings.prediction * (s.theta - s.theta_before);
+    s.theta += predicted_step;
+    s.tree.Clamp(s.theta);
+  }
+  FrameFit fit;
+  const int limit = is_first ? settings.first_frame_iterations : settings.iterations;
+  while (fit.iterations < limit && !fit.converged && fit.solved) IteratePose(limit, fit);
+
+  for (int k = 0; k < s.tree.joint_count(); ++k) {  // the prediction does not move a frozen joint
+    if (!is_first && s.solver.IsFrozen(k)) s.theta[k] = start[k];
+  }
+  // The few points that were matched in a lost frame would carry the body away.
+  if (!is_first && IsLost(fit)) s.theta = start;
+  s.theta_before = is_first ? s.theta : start;
+  s.tree.Pose(s.camera_from_start, s.theta, s.pose);
+  return fit;
 }
 
-void Dynamic::FitPose(bool first) {
+// One step of the damped least squares, from new associations.
+void Dynamic::IteratePose(int limit, FrameFit& fit) {
   Session& s = *session_;
   const PoseSettings& settings = settings_.pose;
   const AssociationSettings& a = settings_.association;
-  const int limit = first ? settings.first_frame_iterations : settings.iterations;
   Level& level = s.pose_level();
-  if (!first) Predict();
-  while (s.iterations < limit && !s.converged && s.solved) {
-    const AssociationLimits limits =
-        LimitsOf(a.window_px, PoseCutoff(a, s.iterations, limit), a.facing_cosine);
-    s.tree.Pose(s.camera_from_start, s.theta, s.pose);
-    level.Match(s.pose, limits, s.team, s.times);
-    s.matched_share = std::max(s.matched_share, level.MatchedShare());
-    level.Assemble(s.tree, s.pose, s.team, s.equations, s.times);
-    const StepSize step = s.solver.Step(
-        s.tree, s.equations, s.all_joints,
-        {settings.damping, settings.default_pose_weight, settings.held_below_share}, s.theta);
-    s.times.Lap(kSolve);
-    ++s.iterations;
-    s.solved = s.solver.solved();
-    s.converged = s.solved && step.rotation_rad < settings.rotation_step_deg * kRadiansPerDegree &&
-                  step.translation_m < settings.translation_step_m;
-  }
-  if (first) s.theta_before = s.theta;
-  for (int k = 0; k < s.tree.joint_count(); ++k) {  // what is held does not go on by prediction
-    if (s.iterations > 0 && s.solver.IsHeld(k)) s.theta[k] = s.theta_before[k];
-  }
-  if (!first && IsLost()) s.theta = s.theta_before;  // the few points left would carry it away
+  const AssociationLimits limits =
+      LimitsOf(a.window_px, PoseCutoff(a, fit.iterations, limit), a.facing_cosine);
   s.tree.Pose(s.camera_from_start, s.theta, s.pose);
+  level.Match(s.pose, limits, s.team, s.times);
+  fit.matched_share = std::max(fit.matched_share, level.MatchedShare());
+  level.Assemble(s.tree, s.pose, s.team, s.equations, s.times);
+  const PoseStep step = s.solver.Step(
+      s.tree, s.equations, s.all_joints,
+      {settings.damping, settings.default_pose_weight, settings.freeze_below_share}, s.theta);
+  s.times.Lap(kSolve);
+  ++fit.iterations;
+  fit.condition = step.condition;
+  fit.solved = step.solved;
+  fit.converged = step.solved &&
+                  step.rotation_rad < settings.rotation_step_deg * kRadiansPerDegree &&
+                  step.translation_m < settings.translation_step_m;
+  fit.energies[kDataTerm] = s.equations.energy;
+  fit.energies[kDefaultPoseTerm] = step.default_pose_energy;
 }
 
-bool Dynamic::IsLost() const {
-  return session_->matched_share < settings_.lost_below || !session_->solved;
+bool Dynamic::IsLost(const FrameFit& fit) const {
+  return fit.matched_share < settings_.lost_below || !fit.solved;
 }
 
-void Dynamic::FitShape(bool first) {
+void Dynamic::FitShape(bool is_first, FrameFit& fit) {
   Session& s = *session_;
   const ShapeSettings& settings = settings_.shape;
-  const AssociationSettings& a = settings_.association;
-  const bool every_frame = settings_.mode == Mode::kFull;
-  const bool now = (every_frame && !IsLost()) || (settings_.mode == Mode::kShapeMatch && first);
-  if (now) {
-    const ShapeWeights weights{static_cast<float>(settings.magnitude_weight),
-                               static_cast<float>(settings.neighbor_weight)};
-    const AssociationLimits limits = LimitsOf(a.window_px, settings.cutoff_m, a.facing_cosine);
-    const int iterations = first ? settings.first_frame_iterations : settings.iterations;
-    for (int i = 0; i < iterations; ++i) {
-      s.fine.Match(s.pose, limits, s.team, s.times);
-      s.shape.Iterate(s.fine.observations, weights, s.team, s.fine.surface);
-      s.times.Lap(kShape);
-    }
-    s.normals.Update(s.team, s.fine.surface);
-    s.RefreshCoarse();
-    s.times.Lap(kNormals);
+  const bool is_due = (settings_.mode == Mode::kFull && !IsLost(fit)) ||
+                      (settings_.mode == Mode::kShapeMatch && is_first);
+  if (!is_due) return;
+  const ShapeWeights weights{static_cast<float>(settings.magnitude_weight),
+                             static_cast<float>(settings.neighbor_weight)};
+  const AssociationLimits limits = LimitsOf(settings_.association.window_px, settings.cutoff_m,
+                                            settings_.association.facing_cosine);
+  const int iterations = is_first ? settings.first_frame_iterations : settings.iterations;
+  for (int i = 0; i < iterations; ++i) {
+    s.fine.Match(s.pose, limits, s.team, s.times);
+    const ShapeEnergy energy =
+        s.shape.Iterate(s.fine.observations, weights, s.team, s.fine.surface);
+    fit.energies[kShapeDataTerm] = energy.data;
+    fit.energies[kShapeMagnitudeTerm] = energy.magnitude;
+    fit.energies[kShapeSmoothnessTerm] = energy.smoothness;
+    s.times.Lap(kShape);
   }
-  s.fine.motions = MotionsOf<float>(s.pose);
-  const auto& patches = s.fine.surface.layout.patches;
-  s.team.For(static_cast<int>(patches.size()), 4, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) PosePatch(patches[i], s.fine.motions, s.fine.surface);
-  });
-  s.times.Lap(kSkin);
+  s.normals.Update(s.team, s.fine.surface);
+  s.RefreshCoarse();
+  s.times.Lap(kNormals);
 }
 
-TrackResult Dynamic::Result() const {
+TrackResult Dynamic::Result(const FrameFit& fit) {
   Session& s = *session_;
   TrackResult result;
-  if (s.fine.cloud.points.empty()) {
-    result.outcome = Outcome::kNoData;
-    result.message = "the frame holds no measurement; pose and shape are carried over";
-  } else if (IsLost()) {
-    result.outcome = Outcome::kLost;
-    result.message = s.solved
-                         ? fmt::format(
-                               "{:.0f} % of the points found a vertex within {:g} m; pose "
-                               "and shape are carried over",
-                               100.0 * s.matched_share, settings_.association.cutoff_m)
-                         : "the normal equations could not be solved; the pose is carried over";
-  } else if (s.converged) {
-    result.outcome = Outcome::kConverged;
-  } else {
-    result.outcome = Outcome::kIterationLimit;
-    result.message = fmt::format("stopped after {} iterations", s.iterations);
-  }
+  ReportOutcome(fit, result);
   result.vertices.resize(s.subject_vertices);
   for (int v = 0; v < s.subject_vertices; ++v) {
     result.vertices[v] = s.placed ? s.fine.surface.posed.At(s.fine.surface.layout.slot_of_vertex[v])
@@ -293,12 +261,33 @@ TrackResult Dynamic::Result() const {
                                                : Rigidd{});
   }
   result.joints = PosedJoints(s.skeleton, result.camera_from_rest);
-  result.iterations = s.iterations;
-  result.energies = {{"data", s.equations.energy}};
-  if (s.placed) result.condition = s.solver.condition();
+  result.iterations = fit.iterations;
+  result.condition = fit.condition;
+  for (int k = 0; k < kEnergyTermCount; ++k)
+    result.energies.push_back({kEnergyTermNames[k], fit.energies[k]});
   s.times.Lap(kResult);
   for (int k = 0; k < kStepCount; ++k) result.step_ms.push_back({kStepNames[k], s.times.ms[k]});
   return result;
+}
+
+void Dynamic::ReportOutcome(const FrameFit& fit, TrackResult& result) const {
+  if (session_->fine.cloud.points.empty()) {
+    result.outcome = Outcome::kNoData;
+    result.message = "the frame holds no measurement; pose and shape are carried over";
+  } else if (!fit.solved) {
+    result.outcome = Outcome::kLost;
+    result.message = "the normal equations could not be solved; the pose is carried over";
+  } else if (IsLost(fit)) {
+    result.outcome = Outcome::kLost;
+    result.message = fmt::format(
+        "{:.0f} % of the points found a vertex within {:g} m; pose and shape are carried over",
+        100.0 * fit.matched_share, settings_.association.cutoff_m);
+  } else if (fit.converged) {
+    result.outcome = Outcome::kConverged;
+  } else {
+    result.outcome = Outcome::kIterationLimit;
+    result.message = fmt::format("stopped after {} iterations", fit.iterations);
+  }
 }
 
 }  // namespace vitruvia::dynamic

@@ -1,8 +1,8 @@
 // Dynamic (paper B): a skeleton of dual-quaternion joints and a warp for every vertex, fitted to
 // each depth frame in turn.
 //
-// Departures: a frame begins where the joints would be if they went on as they did; the cutoff of
-// the association falls over its pose iterations; a frame that is lost changes nothing.
+// Departures: a frame starts from a prediction of the joints' motion; the cutoff of the association
+// falls over the pose iterations of a frame; a lost frame changes neither pose nor shape.
 #pragma once
 
 #include <memory>
@@ -21,19 +21,21 @@ class Dynamic final : public Tracker {
   ~Dynamic() override;
 
   void Start(const Subject& subject, const PinholeCamera& camera) override;
+  // Energies: see energy_terms.h.
   TrackResult TrackFrame(const DepthFrame& frame) override;
 
  private:
-  // Everything that depends on the subject and the camera.
-  struct Session;
+  struct Session;  // everything that depends on the subject and the camera
+  struct FrameFit;
 
-  void BeginFrame(const DepthFrame& frame);
+  void ReadClouds(const DepthFrame& frame);
   void Place();
-  void Predict();
-  void FitPose(bool first);
-  bool IsLost() const;  // after FitPose
-  void FitShape(bool first);
-  TrackResult Result() const;
+  FrameFit FitPose(bool is_first);
+  void IteratePose(int limit, FrameFit& fit);
+  bool IsLost(const FrameFit& fit) const;
+  void FitShape(bool is_first, FrameFit& fit);
+  TrackResult Result(const FrameFit& fit);
+  void ReportOutcome(const FrameFit& fit, TrackResult& result) const;
 
   Settings settings_;
   SkeletonFile skeleton_;

@@ -16,6 +16,15 @@ Level::Level(const TrackedMesh& mesh, const PinholeCamera& camera)
   observations.Reset(surface.layout.slot_count());
 }
 
+void Level::PoseVertices(const TreePose& pose, WorkerTeam& team, StepTimes& times) {
+  motions = MotionsOf<float>(pose);
+  const auto& patches = surface.layout.patches;
+  team.For(static_cast<int>(patches.size()), kPatchesPerRange, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) PosePatch(patches[i], motions, surface);
+  });
+  times.Lap(kSkin);
+}
+
 void Level::Match(const TreePose& pose, const AssociationLimits& limits, WorkerTeam& team,
                   StepTimes& times) {
   motions = MotionsOf<float>(pose);
@@ -42,7 +51,7 @@ void Level::Assemble(const KinematicTree& tree, const TreePose& pose, WorkerTeam
                equations.AddPatch(i, surface, motions, observations);
              }
            });
-  equations.Carry(surface.layout, tree, pose, result);
+  equations.ReduceToJoints(surface.layout, tree, pose, result);
   times.Lap(kAssemble);
 }
 

@@ -1,5 +1,5 @@
-// One level of detail: a surface, the points that it is held against, and what follows from the
-// two.
+// One level of detail: a surface, the observed points that it is matched with, and the equations
+// that follow.
 #pragma once
 
 #include "core/timer.h"
@@ -10,7 +10,7 @@
 
 namespace vitruvia::dynamic {
 
-// The steps of a frame that are timed.
+// The timed steps of a frame.
 enum TimedStep {
   kCloud,
   kSkin,
@@ -29,16 +29,22 @@ struct StepTimes {
   std::array<double, kStepCount> ms{};
   Stopwatch watch;
 
+  void Restart() {
+    ms.fill(0.0);
+    watch.LapMs();
+  }
   void Lap(TimedStep step) { ms[step] += watch.LapMs(); }
 };
 
 struct Level {
   Level(const TrackedMesh& mesh, const PinholeCamera& camera);
 
-  // Poses the surface and lets every point of the cloud choose its vertex.
+  // Eqs. 3 to 5 for all vertices.
+  void PoseVertices(const TreePose& pose, WorkerTeam& team, StepTimes& times);
+  // Poses the surface and associates every point of the cloud with a vertex.
   void Match(const TreePose& pose, const AssociationLimits& limits, WorkerTeam& team,
              StepTimes& times);
-  // The pose's normal equations of what was matched.
+  // The pose step's normal equations of the last Match.
   void Assemble(const KinematicTree& tree, const TreePose& pose, WorkerTeam& team,
                 PoseEquations& result, StepTimes& times);
   // Share of the points that found a vertex in the last Match.

@@ -139,8 +139,8 @@ void LinkEquations<Scalar>::AddPatch(int patch, const Surface<Scalar>& surface,
 }
 
 template <class Scalar>
-void LinkEquations<Scalar>::Carry(const SurfaceLayout& layout, const KinematicTree& tree,
-                                  const TreePose& pose, PoseEquations& equations) {
+void LinkEquations<Scalar>::ReduceToJoints(const SurfaceLayout& layout, const KinematicTree& tree,
+                                           const TreePose& pose, PoseEquations& equations) {
   link_hessian_.setZero();
   link_gradient_.setZero();
   equations.energy = 0.0;
@@ -172,8 +172,8 @@ void LinkEquations<Scalar>::Carry(const SurfaceLayout& layout, const KinematicTr
       twists_.block<kTwistSize, 1>(kTwistSize * bone, joint) = pose.twists[joint];
     }
   }
-  carried_.noalias() = link_hessian_ * twists_;
-  equations.hessian.noalias() = twists_.transpose() * carried_;
+  hessian_twists_.noalias() = link_hessian_ * twists_;
+  equations.hessian.noalias() = twists_.transpose() * hessian_twists_;
   equations.gradient.noalias() = twists_.transpose() * link_gradient_;
 }
 

@@ -36,9 +36,9 @@ class LinkEquations {
   // different threads.
   void AddPatch(int patch, const Surface<Scalar>& surface, const BoneMotions<Scalar>& bones,
                 const Observations<Scalar>& observations);
-  // Sums up all patches, in order, and carries the sum to the joints.
-  void Carry(const SurfaceLayout& layout, const KinematicTree& tree, const TreePose& pose,
-             PoseEquations& equations);
+  // Adds up all patches, in order, and reduces the sums to the joints.
+  void ReduceToJoints(const SurfaceLayout& layout, const KinematicTree& tree, const TreePose& pose,
+                      PoseEquations& equations);
 
  private:
   // Upper triangle of JᵀJ, row after row, then Jᵀr, for the patch's bones in its order.
@@ -57,8 +57,8 @@ class LinkEquations {
   std::vector<PatchSums> sums_;
   Eigen::MatrixXd link_hessian_;  // kLinkUnknowns²
   Eigen::VectorXd link_gradient_;
-  Eigen::MatrixXd twists_;   // S: kLinkUnknowns × joints
-  Eigen::MatrixXd carried_;  // link_hessian_ S
+  Eigen::MatrixXd twists_;          // S: kLinkUnknowns × joints
+  Eigen::MatrixXd hessian_twists_;  // link_hessian_ S
 };
 
 }  // namespace vitruvia::dynamic

@@ -10,16 +10,20 @@
 
 namespace vitruvia::dynamic {
 
-// (JᵀJ + λI + γD) x = Jᵀr + γDθ; θ ← θ − x. D holds, for each joint, its prior's factor times the
-// number of vertices that it moves.
-struct DampedStep {
+// (JᵀJ + λI + γD) x = Jᵀr + γDθ; θ ← θ − x. D is diagonal: for each joint its prior's factor times
+// the number of vertices that it moves.
+struct PoseStepWeights {
   double damping = 0.0;              // λ
   double default_pose_weight = 0.0;  // γ
-  double held_below_share = 0.0;
+  double freeze_below_share = 0.0;   // joints with a smaller share of observed vertices are frozen
 };
 
-struct StepSize {
-  double rotation_rad = 0.0, translation_m = 0.0;  // largest of any joint
+struct PoseStep {
+  bool solved = false;               // false: theta is as it was
+  double rotation_rad = 0.0;         // largest change of a hinge
+  double translation_m = 0.0;        // largest change of a prismatic joint
+  double condition = -1.0;           // of the solved system, an estimate; -1: none
+  double default_pose_energy = 0.0;  // γ θᵀDθ over all joints, before the step
 };
 
 class PoseSolver {
@@ -27,30 +31,28 @@ class PoseSolver {
   PoseSolver(const KinematicTree& tree, const SkinWeights& weights);
 
   // Solves by Cholesky and moves theta, within the joints' limits. Joints with `may_move` 0, or
-  // with too few observed vertices, are held where they are. A system that is not positive definite
-  // or not finite leaves theta as it was and makes `solved` false.
-  StepSize Step(const KinematicTree& tree, const PoseEquations& equations,
-                const std::vector<char>& may_move, const DampedStep& step, Eigen::VectorXd& theta);
+  // with too few observed vertices, are frozen: they keep their value. A system that is not
+  // positive definite or not finite is not solved.
+  PoseStep Step(const KinematicTree& tree, const PoseEquations& equations,
+                const std::vector<char>& may_move, const PoseStepWeights& weights,
+                Eigen::VectorXd& theta);
 
-  bool solved() const { return solved_; }
-  double condition() const { return condition_; }  // of the solved system, an estimate; −1: none
-  int held() const { return held_; }
-  bool IsHeld(int joint) const { return is_held_[joint] != 0; }  // in the last step
+  bool IsFrozen(int joint) const { return is_frozen_[joint] != 0; }  // in the last step
   // Vertices that a joint moves: its bones' weights, summed.
   double MovedVertices(int joint) const { return moved_[joint]; }
 
  private:
-  void Hold(const KinematicTree& tree, const PoseEquations& equations,
-            const std::vector<char>& may_move, double held_below_share);
+  void FreezeUnobservedJoints(const KinematicTree& tree, const PoseEquations& equations,
+                              const std::vector<char>& may_move, double freeze_below_share);
+  double BuildSystem(const KinematicTree& tree, const PoseEquations& equations,
+                     const PoseStepWeights& weights, const Eigen::VectorXd& theta);
+  bool Solve(double& condition);
 
   std::vector<double> moved_, observed_;  // vertices, per joint
-  std::vector<char> is_held_;
+  std::vector<char> is_frozen_;
   Eigen::MatrixXd system_;
   Eigen::VectorXd step_, before_;
   Eigen::LLT<Eigen::MatrixXd> cholesky_;
-  bool solved_ = false;
-  double condition_ = -1.0;
-  int held_ = 0;
 };
 
 }  // namespace vitruvia::dynamic

@@ -96,7 +96,7 @@ void PoseSettings::Describe(Fields& f) {
             .origin = Origin::kTuned,
             .source = "paper B is silent; on 80 frames of dynamic_far the elbows are off by 91 mm "
                       "at most at 1e-5, by 21 at 1e-6, and all joints more again at 1e-7"});
-  f.Number("held_below_share", held_below_share,
+  f.Number("freeze_below_share", freeze_below_share,
            {.meaning = "a joint is held, not solved, while a smaller share of the vertices that it "
                        "moves was chosen by points",
             .min = 0,

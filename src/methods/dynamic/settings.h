@@ -33,7 +33,7 @@ struct PoseSettings {
   double prediction = 0.8;
   double damping = 0.01;
   double default_pose_weight = 1e-6;
-  double held_below_share = 0.01;
+  double freeze_below_share = 0.01;
   double rotation_step_deg = 0.0;
   double translation_step_m = 0.0;
   void Describe(Fields& fields);

@@ -1,7 +1,5 @@
 #include "methods/dynamic/shape_step.h"
 
-#include <numeric>
-
 namespace vitruvia::dynamic {
 namespace {
 
@@ -15,7 +13,7 @@ ShapeStep::ShapeStep(const SurfaceLayout& layout, const std::vector<Vector3f>& r
       next_warps_(layout.slot_count(), Warp::Zero()),
       rest_(layout.slot_count(), Warp::Zero()),
       neighbors_(layout.slot_count()),
-      energies_((layout.slot_count() + kSlotsPerRange - 1) / kSlotsPerRange, 0.0) {
+      energies_((layout.slot_count() + kSlotsPerRange - 1) / kSlotsPerRange) {
   for (int slot = 0; slot < layout.slot_count(); ++slot) {
     neighbors_[slot].fill(-1);
     const int vertex = layout.vertex_of_slot[slot];
@@ -28,18 +26,24 @@ ShapeStep::ShapeStep(const SurfaceLayout& layout, const std::vector<Vector3f>& r
   }
 }
 
-void ShapeStep::Iterate(const Observations<float>& observations, const ShapeWeights& weights,
-                        WorkerTeam& team, Surface<float>& surface) {
+ShapeEnergy ShapeStep::Iterate(const Observations<float>& observations, const ShapeWeights& weights,
+                               WorkerTeam& team, Surface<float>& surface) {
   team.For(static_cast<int>(warps_.size()), kSlotsPerRange, [&](int begin, int end) {
     energies_[begin / kSlotsPerRange] = IterateRange(begin, end, observations, weights, surface);
   });
-  energy_ = std::accumulate(energies_.begin(), energies_.end(), 0.0);
   warps_.swap(next_warps_);
+  ShapeEnergy sum;
+  for (const ShapeEnergy& range : energies_) {
+    sum.data += range.data;
+    sum.magnitude += range.magnitude;
+    sum.smoothness += range.smoothness;
+  }
+  return sum;
 }
 
-double ShapeStep::IterateRange(int begin, int end, const Observations<float>& observations,
-                               const ShapeWeights& weights, Surface<float>& surface) {
-  double energy = 0.0;
+ShapeEnergy ShapeStep::IterateRange(int begin, int end, const Observations<float>& observations,
+                                    const ShapeWeights& weights, Surface<float>& surface) {
+  ShapeEnergy energy;
   for (int slot = begin; slot < end; ++slot) {
     if (surface.layout.vertex_of_slot[slot] < 0) continue;
     const Warp& warp = warps_[slot];
@@ -66,8 +70,9 @@ double ShapeStep::IterateRange(int begin, int end, const Observations<float>& ob
     Warp& next = next_warps_[slot];
     next.head<3>() = warp.head<3>() - SolveWarp<float>(g, h.head<3>(), alpha);
     surface.rest.Set(slot, rest_[slot].head<3>() + next.head<3>());
-    energy += residual * residual + weights.magnitude * warp.squaredNorm() +
-              weights.neighbors * apart_squared;
+    energy.data += residual * residual;
+    energy.magnitude += weights.magnitude * warp.squaredNorm();
+    energy.smoothness += weights.neighbors * apart_squared;
   }
   return energy;
 }

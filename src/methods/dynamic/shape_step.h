@@ -24,6 +24,15 @@ struct ShapeWeights {
   float neighbors = 0.2f;   // λ_s
 };
 
+// The three sums of eq. 9, weighted.
+struct ShapeEnergy {
+  double data = 0.0;        // Σ r_i²
+  double magnitude = 0.0;   // λ_d Σ ‖ω_i‖²
+  double smoothness = 0.0;  // λ_s Σ_i Σ_{j∈N(i)} ‖ω_i − ω_j‖²
+
+  double Total() const { return data + magnitude + smoothness; }
+};
+
 // A⁻¹ h as above.
 template <class Scalar>
 Vector3<Scalar> SolveWarp(const Vector3<Scalar>& g, const Vector3<Scalar>& h, Scalar alpha) {
@@ -36,23 +45,21 @@ class ShapeStep {
             const NeighborTable& neighbors);
 
   // One iteration for all vertices from the observations of the posed surface; moves
-  // surface.rest to v̄ + ω. The same for any number of threads.
-  void Iterate(const Observations<float>& observations, const ShapeWeights& weights,
-               WorkerTeam& team, Surface<float>& surface);
+  // surface.rest to v̄ + ω. Returns the energy before the step. The same for any number of threads.
+  ShapeEnergy Iterate(const Observations<float>& observations, const ShapeWeights& weights,
+                      WorkerTeam& team, Surface<float>& surface);
 
   Vector3f WarpOf(int slot) const { return warps_[slot].head<3>(); }
-  double energy() const { return energy_; }  // of eq. 9 before the last iteration
 
  private:
   using Warp = Eigen::Vector4f;  // the fourth is 0: a neighbour is one load
-  double IterateRange(int begin, int end, const Observations<float>& observations,
-                      const ShapeWeights& weights, Surface<float>& surface);
+  ShapeEnergy IterateRange(int begin, int end, const Observations<float>& observations,
+                           const ShapeWeights& weights, Surface<float>& surface);
 
   std::vector<Warp> warps_, next_warps_;  // per slot; read and written
   std::vector<Warp> rest_;                // v̄
   NeighborTable neighbors_;               // of slots
-  std::vector<double> energies_;          // per range
-  double energy_ = 0.0;
+  std::vector<ShapeEnergy> energies_;     // per range
 };
 
 }  // namespace vitruvia::dynamic

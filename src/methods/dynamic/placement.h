@@ -1,0 +1,18 @@
+// Where the body probably stands in the first frame.
+#pragma once
+
+#include <vector>
+
+#include "geometry/mesh.h"
+#include "math/rigid.h"
+
+namespace vitruvia::dynamic {
+
+// camera_from_subject of an upright body that faces the camera: its crown at the highest point of
+// the cloud, and the mean of its front vertices at the cloud's mean. Holds also when only the
+// upper part of the body is in view. Vertices in the subject frame (y up, z to the front), cloud in
+// the camera frame, metres; neither may be empty.
+Rigidd UprightPlacement(const std::vector<Vector3f>& rest_vertices,
+                        const std::vector<Vector3f>& cloud);
+
+}  // namespace vitruvia::dynamic
