@@ -146,8 +146,8 @@ void AddCommands(CLI::App& app, Arguments& a) {
   AddFitCommand(app);
 
   CLI::App* explain =
-      app.add_subcommand("explain", "Say what a setting means; without KEY list all");
-  explain->add_option("KEY", a.key, "a setting's key or the beginning of one");
+      app.add_subcommand("explain", "Say what a setting or a metric means; without KEY list all");
+  explain->add_option("KEY", a.key, "a setting's key or the beginning of one, or a metric's key");
   explain->callback([&a] { fmt::print("{}", Explain(a.key)); });
 }
 

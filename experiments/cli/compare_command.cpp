@@ -75,7 +75,7 @@ void AddCompareCommand(CLI::App& app) {
   compare->add_option("OTHER", a->second,
                       "another folder of the same runs; without it, the first one's variants");
   compare->add_option("--reference", a->reference, "the variant that others are compared with");
-  compare->add_option("--metric", a->metrics, "a key of the summary rows; again for more");
+  compare->add_option("--metric", a->metrics, "a metric's key (vitruvia explain); again for more");
   compare->add_option("-o,--output", a->output, "also write the table to this .json or .csv file");
   compare->callback([a] { Compare(*a); });
 }

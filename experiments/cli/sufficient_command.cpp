@@ -68,7 +68,9 @@ void AddSufficientCommand(CLI::App& app) {
                    "share of the full model's error that may be lost")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
-  command->add_option("--metric", a->settings.metric, "a key of the summary rows; less is better")
+  command
+      ->add_option("--metric", a->settings.metric,
+                   "key of a metric of which less is better (vitruvia explain)")
       ->capture_default_str();
   command->add_option("-o,--output", a->output, "folder of the runs; out/sufficient/NAME without");
   command->add_option("-j,--jobs", a->settings.jobs, "runs at a time; times are then rough")

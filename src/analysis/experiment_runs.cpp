@@ -1,5 +1,8 @@
 #include "analysis/experiment_runs.h"
 
+#include "core/error.h"
+#include "records/metric_value.h"
+
 namespace vitruvia {
 namespace fs = std::filesystem;
 
@@ -22,6 +25,9 @@ ReportedExperiment ReadExperiment(const fs::path& folder) {
       run.problem = "missing: it has not been run, or was interrupted";
     } else {
       run.record = ReadRunRecord(folder, run_id);
+      if (const std::string problem = UnknownMetricsProblem(*run.record); !problem.empty()) {
+        throw DataError(fmt::format("{}: {}", (folder / run_id / "record.json").string(), problem));
+      }
     }
     experiment.runs.push_back(std::move(run));
   }

@@ -1,4 +1,4 @@
-// An experiment as its report sees it: every run of the grid, there or not.
+// All runs of an experiment's grid: finished, failed or missing.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,8 @@ struct ReportedExperiment {
   std::vector<const RunRecord*> finished() const;
 };
 
-// DataError if the folder holds no experiment, or a record that is damaged rather than missing.
+// DataError if the folder holds no experiment, or a record that is damaged rather than missing or
+// has a metric that the catalogue does not know.
 ReportedExperiment ReadExperiment(const std::filesystem::path& folder);
 
 }  // namespace vitruvia
