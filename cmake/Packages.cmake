@@ -4,6 +4,7 @@ find_package(fmt 9 REQUIRED)
 find_package(Eigen3 3.4 REQUIRED)
 find_package(OpenMesh REQUIRED)
 find_package(Ceres 2.1 REQUIRED)
+find_package(Boost 1.74 REQUIRED)  # Boost.Math, headers only
 find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgcodecs imgproc)
 find_package(CLI11 2.1 REQUIRED)
 find_package(VTK 9.1 REQUIRED COMPONENTS

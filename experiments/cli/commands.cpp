@@ -133,8 +133,9 @@ void AddCommands(CLI::App& app, Arguments& a) {
   AddScanCommand(app);
   AddFitCommand(app);
 
-  CLI::App* explain = app.add_subcommand("explain", "Explain a setting; without KEY list all");
-  explain->add_option("KEY", a.key, "a setting's key or the beginning of one");
+  CLI::App* explain =
+      app.add_subcommand("explain", "Say what a setting or a metric means; without KEY list all");
+  explain->add_option("KEY", a.key, "a setting's key or the beginning of one, or a metric's key");
   explain->callback([&a] { fmt::print("{}", Explain(a.key)); });
 }
 

@@ -83,7 +83,8 @@ void AddCompareCommand(CLI::App& app) {
       "OTHER", a->second,
       "another folder of the same runs; without it the variants of DIR are compared");
   compare->add_option("--reference", a->reference, "the variant that the others are compared with");
-  compare->add_option("--metric", a->metrics, "key of the summary rows; can be repeated");
+  compare->add_option("--metric", a->metrics,
+                      "key of a metric (vitruvia explain); can be repeated");
   compare->add_option("-o,--output", a->output, "also write the table to this .json or .csv file");
   compare->callback([a] { Compare(*a); });
 }

@@ -1,5 +1,6 @@
 #include "experiments/cli/explain.h"
 
+#include "analysis/printed_metric.h"
 #include "core/error.h"
 #include "experiments/cli/config_kinds.h"
 
@@ -12,6 +13,12 @@ std::vector<FieldDescription> AllSettings() {
     const std::vector<FieldDescription> more = DescribeSettings(kind.name, kind.visit);
     all.insert(all.end(), more.begin(), more.end());
   }
+  return all;
+}
+
+std::vector<Metric> AllMetrics() {
+  std::vector<Metric> all = MetricCatalogue();
+  all.insert(all.end(), MetricFamilies().begin(), MetricFamilies().end());
   return all;
 }
 
@@ -52,10 +59,15 @@ std::string Explain(const std::string& key) {
     names.push_back(field.key);
     names.push_back(field.key.substr(field.key.rfind('.') + 1));
   }
+  for (const Metric& metric : AllMetrics()) {
+    if (key.empty()) text += fmt::format("{:<48} metric: {}\n", metric.key, Titled(metric));
+    names.push_back(metric.key);
+  }
+  if (!key.empty() && UnknownMetricProblem(key).empty()) text += Explanation(FindMetric(key));
   if (text.empty()) {
     const std::string nearest = NearestWord(key, names);
     throw ConfigError(
-        fmt::format("explain: no setting \"{}\"{}", key,
+        fmt::format("explain: no setting or metric \"{}\"{}", key,
                     nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
   }
   return text;

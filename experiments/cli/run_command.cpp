@@ -1,12 +1,12 @@
 #include "experiments/cli/run_command.h"
 
 #include <algorithm>
-#include <array>
-#include <limits>
+#include <cmath>
 #include <memory>
 
 #include <CLI/CLI.hpp>
 
+#include "analysis/printed_metric.h"
 #include "core/error.h"
 #include "core/message.h"
 #include "experiments/plan/run_selection.h"
@@ -16,6 +16,7 @@
 #include "experiments/run/run_times.h"
 #include "experiments/run/runner.h"
 #include "experiments/studies/planned_experiment.h"
+#include "records/metric_value.h"
 #include "reports/pages/report.h"
 
 namespace vitruvia {
@@ -23,6 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kMostJobs = 1024;
+constexpr std::size_t kNarrowestColumn = 10;  // characters
 
 constexpr const char* kRunFooter =
     "Each run is a process of its own. Timed runs (\"timed\": true) have the machine to "
@@ -41,44 +43,38 @@ struct RunArguments {
   bool dry_run = false;
 };
 
-// The columns of the printed table, for whatever kind of experiment.
-constexpr std::array kColumns = {"frames_failed",      "l2_mean_of_diagonal", "l2_max_of_diagonal",
-                                 "joints_within_10cm", "frame_ms_median",     "surface_mean_m",
-                                 "surface_max_m",      "height_error_m",      "weight_error_kg"};
-
-// Summary rows of the runs that are done.
-std::vector<Json> RowsOf(const fs::path& folder, const std::vector<PlannedRun>& runs) {
-  std::vector<Json> rows;
+std::vector<RunRecord> FinishedRuns(const fs::path& folder, const std::vector<PlannedRun>& runs) {
+  std::vector<RunRecord> finished;
   for (const PlannedRun& run : runs) {
-    if (StatusOf(folder / run.run_id, run.key).state != RunState::kDone) continue;
-    rows.push_back(ReadRunRecord(folder, run.run_id).summary);
+    if (StatusOf(folder / run.run_id, run.key).state == RunState::kDone)
+      finished.push_back(ReadRunRecord(folder, run.run_id));
   }
-  return rows;
+  return finished;
 }
 
-std::vector<std::string> ColumnsOf(const std::vector<Json>& rows) {
-  std::vector<std::string> columns;
-  for (const char* column : kColumns) {
-    if (std::any_of(rows.begin(), rows.end(),
-                    [column](const Json& row) { return row.contains(column); })) {
-      columns.emplace_back(column);
-    }
-  }
-  return columns;
-}
-
+// The metrics of Place::kTerminal that some run has, one row for each finished run.
 void PrintRows(const fs::path& folder, const std::vector<PlannedRun>& runs) {
-  const std::vector<Json> rows = RowsOf(folder, runs);
-  const std::vector<std::string> columns = ColumnsOf(rows);
+  const std::vector<RunRecord> finished = FinishedRuns(folder, runs);
+  std::vector<Metric> columns = MetricsShownIn(Place::kTerminal);
+  std::erase_if(columns, [&](const Metric& column) {
+    return std::all_of(finished.begin(), finished.end(),
+                       [&](const RunRecord& run) { return std::isnan(MetricValue(run, column)); });
+  });
   std::size_t widest = 0;
   for (const PlannedRun& run : runs) widest = std::max(widest, run.run_id.size());
+  const auto width_of = [](const Metric& c) {
+    return std::max(kNarrowestColumn, Titled(c).size());
+  };
   fmt::print("{:<{}}", "run", widest);
-  for (const std::string& column : columns) fmt::print(" {:>20}", column);
+  for (const Metric& column : columns) fmt::print("  {:>{}}", Titled(column), width_of(column));
   fmt::print("\n");
-  for (const Json& row : rows) {
-    fmt::print("{:<{}}", row["run_id"].get<std::string>(), widest);
-    for (const std::string& column : columns)
-      fmt::print(" {:>20.6g}", row.value(column, std::numeric_limits<double>::quiet_NaN()));
+  for (const RunRecord& run : finished) {
+    fmt::print("{:<{}}", run.run_id, widest);
+    for (const Metric& column : columns) {
+      const double value = MetricValue(run, column);
+      fmt::print("  {:>{}}", std::isnan(value) ? kNoNumber : Printed(value, column),
+                 width_of(column));
+    }
     fmt::print("\n");
   }
 }

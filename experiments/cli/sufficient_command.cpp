@@ -70,7 +70,7 @@ void AddSufficientCommand(CLI::App& app) {
       ->capture_default_str();
   command
       ->add_option("--metric", a->settings.metric,
-                   "key of the summary rows, of which less is better")
+                   "key of a metric of which less is better (vitruvia explain)")
       ->capture_default_str();
   command->add_option("-o,--output", a->output,
                       "folder of the runs; without it out/sufficient/NAME");

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "experiments/plan/overrides.h"
+#include "metrics/catalogue.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -37,7 +38,7 @@ std::string VariantSettings::Problem() const {
 }
 
 void ExpectationSettings::Describe(Fields& f) {
-  f.Text("metric", metric, {.meaning = "a key of the summary rows", .required = true});
+  f.Text("metric", metric, {.meaning = "key of a metric (vitruvia explain)", .required = true});
   f.Number("paper", paper, {.meaning = "value of the metric that the paper prints"});
   f.Number("at_most", at_most, {.meaning = "upper bound that our value must meet"});
   f.Number("at_least", at_least, {.meaning = "lower bound that our value must meet"});
@@ -51,6 +52,13 @@ void ExpectationSettings::Describe(Fields& f) {
 }
 
 std::string ExpectationSettings::Problem() const {
+  if (std::string problem = UnknownMetricProblem(metric); !problem.empty()) return problem;
+  const Better better = FindMetric(metric).better;
+  if ((!std::isnan(at_least) && better == Better::kLower) ||
+      (!std::isnan(at_most) && better == Better::kHigher)) {
+    return fmt::format("metric {}: {}; expected the target as {}", metric, Name(better),
+                       better == Better::kLower ? "at_most" : "at_least");
+  }
   const bool has_target = !std::isnan(at_most) || !std::isnan(at_least);
   if (has_target && !not_comparable.empty()) {
     return "not_comparable and a target: no verdict would be given; expected two expectations, one "

@@ -1,12 +1,14 @@
 #include "experiments/studies/sufficient.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "core/error.h"
 #include "experiments/plan/run_plan.h"
 #include "experiments/run/runner.h"
 #include "math/statistics.h"
+#include "records/metric_value.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -37,10 +39,10 @@ struct Outcome {
 };
 using Outcomes = std::map<Cell, Outcome>;
 
-double NumberOf(const RunRecord& record, const std::string& metric) {
-  const auto found = record.summary.find(metric);
-  if (found != record.summary.end() && found->is_number()) return found->get<double>();
-  throw ConfigError(fmt::format("sufficient: run {} has no metric \"{}\"", record.run_id, metric));
+double NumberOf(const RunRecord& record, const std::string& key) {
+  const double value = MetricValue(record, key);
+  if (!std::isnan(value)) return value;
+  throw ConfigError(fmt::format("sufficient: run {} has no metric \"{}\"", record.run_id, key));
 }
 
 class Search {
@@ -50,6 +52,11 @@ class Search {
         settings_(settings),
         folder_(folder),
         experiment_(ReadSettingsFile<ExperimentSettings>(file)) {
+    if (FindMetric(settings.metric).better != Better::kLower) {
+      throw ConfigError(
+          fmt::format("sufficient: metric \"{}\": expected an error, of which less is better; {}",
+                      settings.metric, Name(FindMetric(settings.metric).better)));
+    }
     if (experiment_.variants.empty()) {
       throw ConfigError(
           fmt::format("{}: variants: expected the parts to leave out, one variant each, got none",

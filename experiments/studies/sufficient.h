@@ -11,7 +11,7 @@
 namespace vitruvia {
 
 struct SufficiencySettings {
-  std::string metric = "joint_error_mean_m";  // a key of the summary rows; less is better
+  std::string metric = "joint_error_mean_m";  // a key of the catalogue; less is better
   double margin = 0.05;                       // share of the full model's error
   int jobs = 1;                               // runs at a time
 };

@@ -1,26 +1,16 @@
 #include "reports/figures/history_figure.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
-#include "analysis/metric_names.h"
+#include "analysis/printed_metric.h"
 #include "reports/drawing/color_maps.h"
 
 namespace vitruvia {
 namespace {
-
-// The first of these that an experiment has is its main error.
-constexpr std::array kMainErrors = {"l2_mean_m", "surface_mean_m", "joint_error_mean_m"};
-constexpr std::array kMainTimes = {kWholeFrame, "fit"};
-
-double NumberOr(const std::map<std::string, double>& numbers, const std::string& key,
-                double otherwise) {
-  const auto found = numbers.find(key);
-  return found == numbers.end() ? otherwise : found->second;
-}
 
 const GatedRun* RunOf(const HistoryEntry& entry, const std::string& name) {
   for (const GatedRun& run : entry.runs) {
@@ -43,12 +33,18 @@ std::vector<GatedRun> RunsOf(const std::vector<HistoryEntry>& history) {
   return runs;
 }
 
-template <class Keys>
-std::string FirstOf(const Keys& keys, const std::map<std::string, double>& numbers) {
-  for (const char* key : keys) {
-    if (numbers.contains(key)) return key;
+std::optional<Metric> MainError(const GatedRun& run) {
+  for (const Metric& metric : MetricsShownIn(Place::kHistoryPlot)) {
+    if (run.accuracy.contains(metric.key)) return metric;
   }
-  return "";
+  return std::nullopt;
+}
+
+std::optional<std::string> MainTime(const GatedRun& run) {
+  for (const WholeTime& time : kWholeTimes) {
+    if (run.speed.contains(time.name)) return time.name;
+  }
+  return std::nullopt;
 }
 
 template <class Number>
@@ -70,22 +66,24 @@ std::string OccasionAxis(const std::vector<HistoryEntry>& history) {
                      history.size(), history.back().date.substr(0, 10));
 }
 
-Figure ExperimentFigure(const std::vector<HistoryEntry>& history,
-                        const std::vector<GatedRun>& runs) {
-  const std::string error = FirstOf(kMainErrors, runs.front().accuracy);
-  const std::string time = FirstOf(kMainTimes, runs.front().speed);
-  const MetricName metric = NameOfMetric(error);
-  Panel errors{"", OccasionAxis(history), Titled(metric), {}, {}, {}};
-  Panel times{"", OccasionAxis(history), "median time / calibration kernel", {}, {}, {}};
+using Numbers = std::map<std::string, double> GatedRun::*;
+
+// A panel of one number of all runs, one line for each run.
+Panel PanelOf(const std::vector<HistoryEntry>& history, const std::vector<GatedRun>& runs,
+              const std::string& axis, Numbers numbers, const std::string& key, double scale) {
+  Panel panel{"", OccasionAxis(history), axis, {}, {}, {}};
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const Color color = kRunColors[i % kRunColors.size()];
-    errors.series.push_back(LineOf(history, runs[i], color, [&](const GatedRun& run) {
-      return NumberOr(run.accuracy, error, NAN) * metric.scale;
-    }));
-    times.series.push_back(LineOf(history, runs[i], color, [&](const GatedRun& run) {
-      return NumberOr(run.speed, time, NAN);
+    panel.series.push_back(LineOf(history, runs[i], color, [&](const GatedRun& run) {
+      const auto found = (run.*numbers).find(key);
+      return found == (run.*numbers).end() ? NAN : scale * found->second;
     }));
   }
+  return panel;
+}
+
+Figure ExperimentFigure(const std::vector<HistoryEntry>& history,
+                        const std::vector<GatedRun>& runs) {
   Figure figure;
   figure.name = "history-" + runs.front().experiment;
   std::replace(figure.name.begin(), figure.name.end(), '/', '-');
@@ -95,8 +93,14 @@ Figure ExperimentFigure(const std::vector<HistoryEntry>& history,
       "repeats.",
       history.front().commit, history.back().commit);
   figure.columns = 2;
-  if (!error.empty()) figure.panels.push_back(std::move(errors));
-  if (!time.empty()) figure.panels.push_back(std::move(times));
+  if (const auto error = MainError(runs.front())) {
+    figure.panels.push_back(
+        PanelOf(history, runs, Titled(*error), &GatedRun::accuracy, error->key, error->scale));
+  }
+  if (const auto time = MainTime(runs.front())) {
+    figure.panels.push_back(
+        PanelOf(history, runs, "median time / calibration kernel", &GatedRun::speed, *time, 1.0));
+  }
   return figure;
 }
 

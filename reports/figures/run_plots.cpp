@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/printed_metric.h"
 #include "core/error.h"
 #include "reports/drawing/color_maps.h"
 #include "reports/figures/speed_figure.h"
@@ -56,29 +57,35 @@ const std::vector<double>& SeriesOf(const RunRecord& run, const std::string& key
   return found->second;
 }
 
+double One(const RunRecord& /*run*/) { return 1.0; }
+double Diagonal(const RunRecord& run) { return run.diagonal_m; }
+
+// A series of the records, divided by the run's own unit length, in the unit of a metric.
+struct PlottedSeries {
+  std::string key;  // of the series
+  Metric metric;    // what the plot shows, and papers publish
+  double (*unit_of)(const RunRecord&) = One;
+};
+
 // One line per run over the frames' numbers; crosses where frames failed.
-std::vector<Series> LinesPerFrame(const Runs& runs, const std::string& key,
-                                  double (*unit_of)(const RunRecord&)) {
+std::vector<Series> LinesPerFrame(const Runs& runs, const PlottedSeries& plotted) {
   std::vector<Series> lines;
   for (std::size_t r = 0; r < runs.size(); ++r) {
     Series line;
     line.name = runs[r]->run_id;
     line.color = kRunColors[r];
-    const std::vector<double>& values = SeriesOf(*runs[r], key);
+    const std::vector<double>& values = SeriesOf(*runs[r], plotted.key);
     const std::vector<double>& failed = SeriesOf(*runs[r], "failed");
-    const double unit = unit_of(*runs[r]);
+    const double unit = plotted.unit_of(*runs[r]);
     for (std::size_t i = 0; i < values.size(); ++i) {
       line.x.push_back(static_cast<double>(i));
-      line.y.push_back(values[i] / unit);
+      line.y.push_back(plotted.metric.scale * (values[i] / unit));
       if (failed[i] != 0.0) line.failed_x.push_back(static_cast<double>(i));
     }
     lines.push_back(std::move(line));
   }
   return lines;
 }
-
-double One(const RunRecord& /*run*/) { return 1.0; }
-double Diagonal(const RunRecord& run) { return run.diagonal_m; }
 
 bool HasSurfaceErrors(const RunRecord& run) { return run.frames.contains("l2_mean_m"); }
 bool HasJointErrors(const RunRecord& run) { return !run.joint_accuracy.empty(); }
@@ -92,71 +99,46 @@ double LastFrame(const Runs& runs) {
   return static_cast<double>(frames - 1);
 }
 
-// What a figure of mean and maximum errors shows: two series of the records, each with the metric
-// that papers publish of it.
-struct ErrorKind {
-  const char* name;
-  const char* title;
-  const char* caption;
-  const char* measured_over;
-  const char* axis;
-  double (*unit_of)(const RunRecord&);
-  const char *mean, *published_mean;
-  const char *maximum, *published_maximum;
-};
-
-Figure MeanAndMaximum(const ErrorKind& kind, const ExperimentRecord& experiment,
-                      const RunGroup& group) {
-  Figure figure;
-  figure.name = kind.name;
-  figure.title = kind.title;
-  figure.caption = kind.caption;
-  const auto panel = [&](const char* statistic, const char* series, const char* published) {
-    Panel p{fmt::format("{} over the {}", statistic, kind.measured_over),
-            kFrameAxis,
-            kind.axis,
-            LinesPerFrame(group.runs, series, kind.unit_of),
-            PublishedReferences(experiment, published),
-            {}};
-    p.x_end = LastFrame(group.runs);
-    return p;
-  };
-  figure.panels = {panel("mean", kind.mean, kind.published_mean),
-                   panel("maximum", kind.maximum, kind.published_maximum)};
-  return figure;
+Panel PanelPerFrame(const std::string& title, const PlottedSeries& plotted,
+                    const ExperimentRecord& experiment, const Runs& runs) {
+  Panel panel{title,
+              kFrameAxis,
+              Titled(plotted.metric),
+              LinesPerFrame(runs, plotted),
+              PublishedReferences(experiment, plotted.metric),
+              {}};
+  panel.x_end = LastFrame(runs);
+  return panel;
 }
 
 Figure ErrorFigure(const ExperimentRecord& experiment, const RunGroup& group) {
-  return MeanAndMaximum(
-      {.name = "error-per-frame",
-       .title = "Error per frame",
-       .caption =
-           "Mean and maximum distance between corresponding points of the estimated and the true "
-           "surface, as a fraction of the diagonal of the subject's rest-pose bounding box.",
-       .measured_over = "surface",
-       .axis = "L2 error / diagonal",
-       .unit_of = Diagonal,
-       .mean = "l2_mean_m",
-       .published_mean = "l2_mean_of_diagonal",
-       .maximum = "l2_max_m",
-       .published_maximum = "l2_max_of_diagonal"},
-      experiment, group);
+  Figure figure;
+  figure.name = "error-per-frame";
+  figure.title = "Error per frame";
+  figure.caption =
+      "Mean and maximum distance between corresponding points of the estimated and the true "
+      "surface, as a fraction of the diagonal of the subject's rest-pose bounding box.";
+  figure.panels = {PanelPerFrame("mean over the surface",
+                                 {"l2_mean_m", FindMetric("l2_mean_of_diagonal"), Diagonal},
+                                 experiment, group.runs),
+                   PanelPerFrame("maximum over the surface",
+                                 {"l2_max_m", FindMetric("l2_max_of_diagonal"), Diagonal},
+                                 experiment, group.runs)};
+  return figure;
 }
 
 Figure JointErrorFigure(const ExperimentRecord& experiment, const RunGroup& group) {
-  return MeanAndMaximum(
-      {.name = "joint-error-per-frame",
-       .title = "Joint error per frame",
-       .caption = "Mean and maximum distance between estimated and true joints. The sequence has "
-                  "no true surface.",
-       .measured_over = "joints",
-       .axis = "error (m)",
-       .unit_of = One,
-       .mean = "joint_error_mean_m",
-       .published_mean = "joint_error_mean_m",
-       .maximum = "joint_error_max_m",
-       .published_maximum = "joint_error_max_m"},
-      experiment, group);
+  Figure figure;
+  figure.name = "joint-error-per-frame";
+  figure.title = "Joint error per frame";
+  figure.caption =
+      "Mean and maximum distance between estimated and true joints. The sequence has no true "
+      "surface.";
+  for (const auto& [title, key] : {std::pair{"mean over the joints", "joint_error_mean_m"},
+                                   std::pair{"maximum over the joints", "joint_error_max_m"}}) {
+    figure.panels.push_back(PanelPerFrame(title, {key, FindMetric(key)}, experiment, group.runs));
+  }
+  return figure;
 }
 
 Figure TimeFigure(const ExperimentRecord& experiment, const RunGroup& group) {
@@ -164,13 +146,8 @@ Figure TimeFigure(const ExperimentRecord& experiment, const RunGroup& group) {
   figure.name = "time-per-frame";
   figure.title = "Time per frame";
   figure.caption = "Wall clock round the tracker's step only, without reading, writing or scoring.";
-  Panel panel{"",
-              kFrameAxis,
-              "time per frame (ms)",
-              LinesPerFrame(group.runs, "frame_ms", One),
-              PublishedReferences(experiment, "frame_ms_median"),
-              {}};
-  panel.x_end = LastFrame(group.runs);
+  Panel panel = PanelPerFrame("", {"frame_ms", FindMetric("frame_ms")}, experiment, group.runs);
+  panel.y_references = PublishedReferences(experiment, FindMetric("frame_ms_median"));
   panel.y_scale = Scale::kLogarithmic;  // a first frame may take ten times as long as the others
   figure.panels = {std::move(panel)};
   return figure;

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "analysis/metric_names.h"
 #include "analysis/pareto_front.h"
+#include "analysis/printed_metric.h"
 #include "analysis/variant_comparison.h"
 #include "math/statistics.h"
 #include "records/metric_value.h"
@@ -16,18 +16,18 @@
 namespace vitruvia {
 namespace {
 
-// What stands for a variant's error: of the surface, or of the joints where no sequence has a true
-// surface.
-constexpr const char* kSurfaceMetric = "l2_mean_of_diagonal";
-constexpr const char* kJointMetric = "joint_error_mean_m";
-
-const char* ErrorMetricOf(const ReportedExperiment& experiment) {
-  const auto runs = experiment.finished();
-  const auto has = [&runs](const char* key) {
-    return std::any_of(runs.begin(), runs.end(),
-                       [key](const RunRecord* run) { return !std::isnan(MetricValue(*run, key)); });
-  };
-  return !has(kSurfaceMetric) && has(kJointMetric) ? kJointMetric : kSurfaceMetric;
+// What stands for a variant's error: the first of Place::kSpeedPlot that some run has; the first of
+// all if no run has any.
+Metric ErrorMetricOf(const ReportedExperiment& experiment) {
+  const std::vector<const RunRecord*> runs = experiment.finished();
+  const std::vector<Metric> metrics = MetricsShownIn(Place::kSpeedPlot);
+  for (const Metric& metric : metrics) {
+    const bool is_there = std::any_of(runs.begin(), runs.end(), [&](const RunRecord* run) {
+      return !std::isnan(MetricValue(*run, metric));
+    });
+    if (is_there) return metric;
+  }
+  return metrics.front();
 }
 
 // An axis whose values differ by more than this factor is logarithmic.
@@ -41,8 +41,9 @@ struct SpeedPoint {
   bool on_front = false;
 };
 
-// Over the contender's runs of a scene; "": of all scenes.
-SpeedPoint PointOf(const Contender& contender, const std::string& scene, const char* error_metric) {
+// Over the contender's runs of a scene; "": of all scenes. The error is in the metric's unit.
+SpeedPoint PointOf(const Contender& contender, const std::string& scene,
+                   const Metric& error_metric) {
   std::vector<double> frame_ms, errors;
   for (const RunRecord* run : contender.runs) {
     const auto found = run->frames.find("frame_ms");
@@ -51,11 +52,12 @@ SpeedPoint PointOf(const Contender& contender, const std::string& scene, const c
     errors.push_back(MetricValue(*run, error_metric));
   }
   if (frame_ms.empty()) return {contender.name, NAN, NAN, NAN};
-  return {contender.name, Quantile(frame_ms, 0.5), Quantile(frame_ms, 0.95), Mean(errors)};
+  return {contender.name, Quantile(frame_ms, 0.5), Quantile(frame_ms, 0.95),
+          error_metric.scale * Mean(errors)};
 }
 
 std::vector<SpeedPoint> PointsOf(const ReportedExperiment& experiment, const std::string& scene,
-                                 const char* error_metric) {
+                                 const Metric& error_metric) {
   std::vector<SpeedPoint> points;
   std::vector<Costs> costs;
   for (const Contender& contender : ContendersOf(experiment)) {
@@ -133,13 +135,13 @@ std::vector<std::string> PanelScenes(const ReportedExperiment& experiment) {
 }
 
 Panel SpeedPanel(const ReportedExperiment& experiment, const std::string& scene,
-                 const char* error_metric) {
+                 const Metric& error_metric) {
   Panel panel{scene,
               "time per frame, median and 95th percentile (ms)",
-              error_metric == kSurfaceMetric ? "mean L2 error / diagonal" : "mean joint error (m)",
+              Titled(error_metric),
               {},
               PublishedReferences(experiment.record, error_metric),
-              PublishedReferences(experiment.record, "frame_ms_median")};
+              PublishedReferences(experiment.record, FindMetric("frame_ms_median"))};
   const std::vector<SpeedPoint> points = PointsOf(experiment, scene, error_metric);
   std::vector<double> times_ms, errors;
   for (const SpeedPoint& point : points) {
@@ -158,21 +160,21 @@ Panel SpeedPanel(const ReportedExperiment& experiment, const std::string& scene,
 }  // namespace
 
 std::vector<Reference> PublishedReferences(const ExperimentRecord& experiment,
-                                           const std::string& metric) {
+                                           const Metric& metric) {
   std::vector<Reference> references;
   for (const Expectation& e : experiment.expectations) {
-    if (e.metric != metric || std::isnan(e.paper)) continue;
-    const MetricName name = NameOfMetric(metric);
+    if (e.metric != metric.key || std::isnan(e.paper)) continue;
+    const double published = e.paper * metric.scale;
     references.push_back(
-        {fmt::format("{}: {:g}{}{}{}", e.source, e.paper * name.scale, name.unit.empty() ? "" : " ",
-                     name.unit, e.not_comparable.empty() ? "" : ", not comparable"),
-         e.paper});
+        {fmt::format("{}: {:g}{}{}{}", e.source, published, metric.unit.empty() ? "" : " ",
+                     metric.unit, e.not_comparable.empty() ? "" : ", not comparable"),
+         published});
   }
   return references;
 }
 
 Figure MakeSpeedFigure(const ReportedExperiment& experiment) {
-  const char* error_metric = ErrorMetricOf(experiment);
+  const Metric error_metric = ErrorMetricOf(experiment);
   const std::vector<std::string> scenes = PanelScenes(experiment);
   Figure figure;
   figure.name = kSpeedFigure;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "analysis/experiment_runs.h"
+#include "metrics/catalogue.h"
 #include "reports/drawing/plot.h"
 
 namespace vitruvia {
@@ -12,8 +13,8 @@ namespace vitruvia {
 // the others rings.
 Figure MakeSpeedFigure(const ReportedExperiment& experiment);
 
-// What the papers say of a metric, as lines across a plot.
+// The values that papers publish of a metric, in its unit, as lines across a plot.
 std::vector<Reference> PublishedReferences(const ExperimentRecord& experiment,
-                                           const std::string& metric);
+                                           const Metric& metric);
 
 }  // namespace vitruvia

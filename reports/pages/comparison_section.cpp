@@ -10,7 +10,7 @@
 namespace vitruvia {
 namespace {
 
-std::string SpreadText(const SampleSpread& spread, const MetricName& metric) {
+std::string SpreadText(const SampleSpread& spread, const Metric& metric) {
   std::string text = Printed(spread.mean, metric);
   if (!std::isnan(spread.deviation)) text += " ± " + Printed(spread.deviation, metric);
   return text;
@@ -55,7 +55,7 @@ std::string VariantRow(const VariantComparison& row) {
       VerdictClass(verdict), verdict);
 }
 
-std::string SummaryOf(const VariantSummary::Cell& cell, const MetricName& metric) {
+std::string SummaryOf(const VariantSummary::Cell& cell, const Metric& metric) {
   if (cell.spread.count == 0) return "<td class=\"n\">–</td>";
   std::string text = SpreadText(cell.spread, metric);
   if (cell.difference) {
@@ -83,7 +83,7 @@ std::string VariantSection(const ReportedExperiment& experiment) {
       "</th><th><button type=\"button\">runs</button></th>",
       table.rows.size(), experiment.finished().size(), Escaped(table.rows.front().name),
       1e2 * BootstrapSettings{}.confidence);
-  for (const MetricName& metric : table.metrics)
+  for (const Metric& metric : table.metrics)
     html += fmt::format("<th class=\"n\"><button type=\"button\">{}</button></th>",
                         Escaped(Titled(metric)));
   html += "</tr></thead><tbody>\n";

@@ -10,7 +10,6 @@
 #include "analysis/variant_comparison.h"
 #include "reports/drawing/html_text.h"
 #include "reports/pages/comparison_section.h"
-#include "reports/pages/page_assets.h"
 #include "reports/pages/picture_section.h"
 
 namespace vitruvia {
@@ -112,14 +111,7 @@ std::string PlotSection(const ReportedExperiment& experiment,
   if (finished && figures.empty()) return "";  // runs without frames
   std::string html = "<section id=\"plots\"><h2>Plots</h2>\n";
   if (!finished) html += "<p>No run has finished, so there is nothing to plot.</p>\n";
-  for (const DrawnFigure& figure : figures) {
-    // An SVG inside a page needs no XML header and gets its description from the page.
-    const std::size_t at = figure.svg.find("<svg");
-    html += fmt::format(
-        "<figure class=\"plot\"><figcaption><b>{0}</b>{1}</figcaption><div class=\"scroll\">"
-        "<svg role=\"img\" aria-label=\"{0}\"{2}</div></figure>\n",
-        Escaped(figure.title), Escaped(figure.caption), figure.svg.substr(at + 4));
-  }
+  for (const DrawnFigure& figure : figures) html += FigureHtml(figure);
   return html + "</section>\n";
 }
 
@@ -164,7 +156,7 @@ std::string StepSection(const ReportedExperiment& experiment) {
   return html + "</section>\n";
 }
 
-std::string SummaryCell(const nlohmann::json& cell, const MetricName& column) {
+std::string SummaryCell(const nlohmann::json& cell, const Metric& column) {
   const std::string value = cell.is_string() ? cell.get<std::string>() : cell.dump();
   return fmt::format("<td class=\"{}\"{}>{}</td>",
                      column.key == "run_id" ? "run"
@@ -179,7 +171,7 @@ std::string RunsSection(const ReportedExperiment& experiment) {
   std::string html =
       "<section id=\"runs\"><h2>All runs</h2><p class=\"soft\">A click on a column’s name sorts by "
       "it.</p><div class=\"scroll\"><table class=\"sortable\"><thead><tr>";
-  for (const MetricName& column : table.columns) {
+  for (const Metric& column : table.columns) {
     html += fmt::format("<th><button type=\"button\">{}</button></th>", Escaped(Titled(column)));
   }
   html += "</tr></thead><tbody>\n";
@@ -229,21 +221,12 @@ std::string ProvenanceSection(const ReportedExperiment& experiment) {
 
 std::string MakePage(const ReportedExperiment& experiment, const std::vector<DrawnFigure>& figures,
                      const std::vector<RunPictures>& pictures) {
-  std::string page = fmt::format(
-      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
-      "<title>{}</title><link rel=\"icon\" href=\"data:,\"><style>{}</style></head><body>\n",
-      Escaped(experiment.record.title), kPageStyle);
-  page += Header(experiment) + "<main>\n";
-  page += VariantSection(experiment);
-  page += PaperSection(experiment);
-  page += ComparisonSection(experiment);
-  page += PlotSection(experiment, figures);
-  page += PictureSection(pictures);
-  page += StepSection(experiment);
-  page += RunsSection(experiment);
-  page += ProvenanceSection(experiment);
-  return page + "</main>\n<script>" + kPageScript + "</script>\n</body></html>\n";
+  return PageOf(experiment.record.title,
+                Header(experiment) + "<main>\n" + VariantSection(experiment) +
+                    PaperSection(experiment) + ComparisonSection(experiment) +
+                    PlotSection(experiment, figures) + PictureSection(pictures) +
+                    StepSection(experiment) + RunsSection(experiment) +
+                    ProvenanceSection(experiment) + "</main>\n");
 }
 
 }  // namespace vitruvia

@@ -2,12 +2,10 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPNGReader.h>
 
 #include "core/error.h"
 #include "core/files.h"
+#include "reports/drawing/thumbnail.h"
 #include "reports/figures/history_figure.h"
 #include "reports/pages/index_page.h"
 
@@ -40,47 +38,6 @@ FoundFolders FindFolders(const fs::path& folder) {
   return found;
 }
 
-ColorImage ReadPng(const fs::path& file) {
-  vtkNew<vtkPNGReader> reader;
-  if (reader->CanReadFile(file.c_str()) == 0)
-    throw DataError(fmt::format("{}: not a PNG", file.string()));
-  reader->SetFileName(file.c_str());
-  reader->Update();
-  vtkImageData* data = reader->GetOutput();
-  const int* size = data->GetDimensions();
-  const int channels = data->GetNumberOfScalarComponents();
-  ColorImage image(size[0], size[1]);
-  for (int v = 0; v < size[1]; ++v) {
-    for (int u = 0; u < size[0]; ++u) {
-      const auto* pixel =
-          static_cast<const std::uint8_t*>(data->GetScalarPointer(u, size[1] - 1 - v, 0));
-      image(u, v) = {pixel[0], pixel[channels > 2 ? 1 : 0], pixel[channels > 2 ? 2 : 0], 255};
-    }
-  }
-  return image;
-}
-
-// Means over the pixels that fall into one: the top of a picture, smaller.
-ColorImage Thumbnail(const ColorImage& image) {
-  const int factor = std::max(1, (image.width() + kThumbnailWidth - 1) / kThumbnailWidth);
-  const int width = image.width() / factor;
-  const int height = std::min(image.height() / factor, static_cast<int>(kThumbnailAspect * width));
-  ColorImage small(width, height);
-  for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u) {
-      std::array<int, 3> sum{};
-      for (int k = 0; k < factor * factor; ++k) {
-        const ColorPixel& pixel = image(u * factor + k % factor, v * factor + k / factor);
-        for (std::size_t c = 0; c < 3; ++c) sum[c] += pixel[c];
-      }
-      for (std::size_t c = 0; c < 3; ++c)
-        small(u, v)[c] = static_cast<std::uint8_t>(sum[c] / (factor * factor));
-      small(u, v)[3] = 255;
-    }
-  }
-  return small;
-}
-
 IndexedExperiment ReadIndexed(const fs::path& folder, const fs::path& top) {
   IndexedExperiment indexed;
   indexed.experiment = ReadExperiment(folder);
@@ -91,7 +48,8 @@ IndexedExperiment ReadIndexed(const fs::path& folder, const fs::path& top) {
   for (const ReportedRun& run : indexed.experiment.runs) {
     const fs::path pictures = folder / "figures" / ("pictures-" + run.run_id + ".png");
     if (!fs::exists(pictures)) continue;
-    indexed.picture_png = EncodePng(Thumbnail(ReadPng(pictures)));
+    indexed.picture_png =
+        EncodePng(Thumbnail(ReadPng(pictures), kThumbnailWidth, kThumbnailAspect));
     break;
   }
   return indexed;
@@ -101,20 +59,12 @@ IndexedGate ReadGate(const fs::path& folder, const fs::path& top, DrawingWriter&
   const fs::path file = folder / "regression.json";
   const nlohmann::json json = ReadStoredJson(file);
   const JsonNode node(json, file.string());
-  IndexedGate gate{node.At("name").Text(),
-                   node.At("verdict").Text(),
-                   node.At("date").Text(),
-                   node.At("commit").Text(),
-                   (folder / "regression.md").lexically_relative(top).generic_string(),
-                   {}};
-  for (const Figure& figure : MakeHistoryFigures(ReadHistory(folder / "history.json"))) {
-    const fs::path stem = folder / figure.name;
-    writer.Write(stem, kFigureWidth, FigureHeight(figure),
-                 [&](Canvas& canvas) { DrawFigure(canvas, figure); });
-    gate.figures.push_back(
-        {figure.name, figure.title, figure.caption, ReadWholeFile(fs::path(stem).concat(".svg"))});
-  }
-  return gate;
+  return {node.At("name").Text(),
+          node.At("verdict").Text(),
+          node.At("date").Text(),
+          node.At("commit").Text(),
+          (folder / "regression.md").lexically_relative(top).generic_string(),
+          DrawFigures(writer, MakeHistoryFigures(ReadHistory(folder / "history.json")), folder)};
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "reports/pages/index_page.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -9,20 +8,9 @@
 #include "analysis/tables.h"
 #include "records/metric_value.h"
 #include "reports/drawing/html_text.h"
-#include "reports/pages/page_assets.h"
 
 namespace vitruvia {
 namespace {
-
-constexpr std::array kIndexColumns = {"frames",
-                                      "frames_failed",
-                                      "l2_mean_of_diagonal",
-                                      "l2_max_of_diagonal",
-                                      "joints_within_10cm",
-                                      "frame_ms_median",
-                                      "frame_ms_p95",
-                                      "surface_mean_m",
-                                      "surface_max_m"};
 
 std::string LinkTo(const IndexedExperiment& indexed, const std::string& text) {
   if (indexed.link.empty()) return Escaped(text);
@@ -53,7 +41,7 @@ OursInAll OursOf(const ReportedExperiment& experiment, const Comparison& compari
     ours.met += run.verdict == Verdict::kMet ? 1 : 0;
   }
   for (const RunRecord* run : experiment.finished()) {
-    const double value = MetricValue(*run, comparison.expectation.metric);
+    const double value = MetricValue(*run, comparison.metric);
     if (std::isnan(value) || !comparison.expectation.IsAbout(run->scene)) continue;
     ours.least = std::isnan(ours.least) ? value : std::min(ours.least, value);
     ours.most = std::isnan(ours.most) ? value : std::max(ours.most, value);
@@ -61,7 +49,7 @@ OursInAll OursOf(const ReportedExperiment& experiment, const Comparison& compari
   return ours;
 }
 
-std::string OursText(const OursInAll& ours, const MetricName& metric) {
+std::string OursText(const OursInAll& ours, const Metric& metric) {
   if (std::isnan(ours.least)) return "–";
   const std::string least = Printed(ours.least, metric), most = Printed(ours.most, metric);
   return least == most ? least : fmt::format("{} … {}", least, most);
@@ -133,10 +121,9 @@ std::string ExperimentCard(const IndexedExperiment& indexed) {
     html += fmt::format("<img src=\"{}\" alt=\"Pictures of a run of {}\">",
                         DataUri(indexed.picture_png), Escaped(experiment.record.title));
   }
-  if (const std::size_t at = indexed.speed_svg.find("<svg"); at != std::string::npos) {
-    html += fmt::format(
-        "<figure class=\"plot\"><svg role=\"img\" aria-label=\"Speed against error\"{}</figure>",
-        indexed.speed_svg.substr(at + 4));
+  if (!indexed.speed_svg.empty()) {
+    html += "<figure class=\"plot\">" + InlineSvg(indexed.speed_svg, "Speed against error") +
+            "</figure>";
   }
   return html + "</article>\n";
 }
@@ -147,39 +134,38 @@ std::string ExperimentSection(const IndexContent& content) {
   return html + "</div></section>\n";
 }
 
-std::string RunRow(const IndexedExperiment& indexed, const ReportedRun& run) {
+std::string RunRow(const IndexedExperiment& indexed, const ReportedRun& run,
+                   const std::vector<Metric>& columns) {
   std::string html = "<tr>" + TextCell(LinkTo(indexed, indexed.experiment.record.name),
                                        indexed.experiment.record.name);
   html += fmt::format("<td class=\"run\" data-value=\"{0}\">{0}</td>", Escaped(run.run_id));
   if (!run.record) {
     return html + fmt::format("<td class=\"problem\" colspan=\"{}\">{}</td></tr>\n",
-                              kIndexColumns.size() + 1, Escaped(run.problem));
+                              columns.size() + 1, Escaped(run.problem));
   }
   const std::string commit = run.record->provenance.is_object()
                                  ? run.record->provenance.value("commit", std::string("–"))
                                  : "–";
   html += TextCell("<code>" + Escaped(commit) + "</code>", commit);
-  for (const char* key : kIndexColumns) {
-    const double value = MetricValue(*run.record, key);
-    const bool counted =
-        run.record->summary.contains(key) && run.record->summary.at(key).is_number_integer();
-    html += std::isnan(value) ? std::string("<td class=\"n\">–</td>")
-                              : fmt::format("<td class=\"n\" data-value=\"{}\">{}</td>", value,
-                                            counted ? fmt::format("{:.0f}", value)
-                                                    : Printed(value, NameOfMetric(key)));
+  for (const Metric& column : columns) {
+    const nlohmann::json cell = run.record->summary.value(column.key, nlohmann::json(nullptr));
+    html += fmt::format("<td class=\"n\"{}>{}</td>",
+                        cell.is_null() ? "" : fmt::format(" data-value=\"{}\"", cell.dump()),
+                        PrintedCell(cell, column));
   }
   return html + "</tr>\n";
 }
 
 std::string RunSectionOfAll(const IndexContent& content) {
-  std::vector<std::string> columns = {"experiment", "run", "commit"};
-  for (const char* key : kIndexColumns) columns.push_back(Titled(NameOfMetric(key)));
+  const std::vector<Metric> columns = MetricsShownIn(Place::kIndexPage);
+  std::vector<std::string> titles = {"experiment", "run", "commit"};
+  for (const Metric& column : columns) titles.push_back(Titled(column));
   std::string html =
       "<section id=\"runs\"><h2>All runs</h2><p class=\"soft\">A click on a column’s name sorts by "
       "it.</p>" +
-      TableHead("sortable", columns);
+      TableHead("sortable", titles);
   for (const IndexedExperiment& indexed : content.experiments) {
-    for (const ReportedRun& run : indexed.experiment.runs) html += RunRow(indexed, run);
+    for (const ReportedRun& run : indexed.experiment.runs) html += RunRow(indexed, run, columns);
   }
   return html + "</tbody></table></div></section>\n";
 }
@@ -193,13 +179,7 @@ std::string GateSection(const IndexContent& content) {
         "commit <code>{}</code>; <a href=\"{}\">summary</a></p>\n",
         Escaped(gate.name), good ? "met" : "missed", Escaped(gate.verdict), Escaped(gate.date),
         Escaped(gate.commit), Escaped(gate.link));
-    for (const DrawnFigure& figure : gate.figures) {
-      const std::size_t at = figure.svg.find("<svg");
-      html += fmt::format(
-          "<figure class=\"plot\"><figcaption><b>{0}</b>{1}</figcaption><div class=\"scroll\"><svg "
-          "role=\"img\" aria-label=\"{0}\"{2}</div></figure>\n",
-          Escaped(figure.title), Escaped(figure.caption), figure.svg.substr(at + 4));
-    }
+    for (const DrawnFigure& figure : gate.figures) html += FigureHtml(figure);
     html += "</section>\n";
   }
   return html;
@@ -225,15 +205,10 @@ std::string IndexHeader(const IndexContent& content) {
 }  // namespace
 
 std::string MakeIndexPage(const IndexContent& content) {
-  return fmt::format(
-             "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta "
-             "name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
-             "<title>vitruvia: all experiments</title><link rel=\"icon\" href=\"data:,\">"
-             "<style>{}</style></head><body>\n",
-             kPageStyle) +
-         IndexHeader(content) + "<main>\n" + PaperSectionOfAll(content) + GateSection(content) +
-         ExperimentSection(content) + RunSectionOfAll(content) + "</main>\n<script>" + kPageScript +
-         "</script>\n</body></html>\n";
+  return PageOf("vitruvia: all experiments", IndexHeader(content) + "<main>\n" +
+                                                 PaperSectionOfAll(content) + GateSection(content) +
+                                                 ExperimentSection(content) +
+                                                 RunSectionOfAll(content) + "</main>\n");
 }
 
 }  // namespace vitruvia

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/experiment_runs.h"
-#include "reports/pages/html_page.h"
+#include "reports/pages/page_parts.h"
 
 namespace vitruvia {
 

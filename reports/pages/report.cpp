@@ -13,19 +13,6 @@ namespace {
 
 constexpr const char* kFiguresMark = "README";
 
-std::vector<DrawnFigure> DrawFigures(DrawingWriter& writer, const std::vector<Figure>& figures,
-                                     const fs::path& folder) {
-  std::vector<DrawnFigure> drawn;
-  for (const Figure& figure : figures) {
-    const fs::path stem = folder / figure.name;
-    writer.Write(stem, kFigureWidth, FigureHeight(figure),
-                 [&](Canvas& canvas) { DrawFigure(canvas, figure); });
-    drawn.push_back(
-        {figure.name, figure.title, figure.caption, ReadWholeFile(fs::path(stem).concat(".svg"))});
-  }
-  return drawn;
-}
-
 void WritePictureSheets(DrawingWriter& writer, const std::vector<RunPictures>& pictures,
                         const fs::path& folder) {
   for (const RunPictures& run : pictures) {

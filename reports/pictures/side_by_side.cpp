@@ -1,11 +1,11 @@
 #include "reports/pictures/side_by_side.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
-#include "analysis/metric_names.h"
+#include "analysis/printed_metric.h"
 #include "analysis/variant_comparison.h"
 #include "core/error.h"
 #include "records/estimate.h"
@@ -18,7 +18,6 @@ namespace vitruvia {
 namespace {
 
 constexpr double kSheetMargin = 1.15;  // of a picture over the body in it
-constexpr std::array kRowMetrics = {"l2_mean_m", "jitter_rms_rad_s2", "twist_rms_deg"};
 
 struct NamedRun {
   std::string name;  // what tells it from the other contenders
@@ -31,7 +30,7 @@ std::vector<RunsOfSequence> GroupedBySequence(const ReportedExperiment& experime
   std::vector<RunsOfSequence> groups;
   const std::vector<Contender> contenders = ContendersOf(experiment);
   for (const RunRecord* run : experiment.finished()) {
-    if (MetricValue(*run, "repeat") > 1.0) continue;  // the same again
+    if (RepeatOf(*run) > 1) continue;  // the same again
     std::string name;
     for (const Contender& contender : contenders) {
       const auto& runs = contender.runs;
@@ -62,13 +61,11 @@ std::vector<Color> FrontAndBack(const TriangleMesh& rest) {
 
 std::string NoteOf(const RunRecord& run) {
   std::string note;
-  for (const char* key : kRowMetrics) {
-    const auto found = run.summary.find(key);
-    if (found == run.summary.end() || !found->is_number()) continue;
-    const MetricName metric = NameOfMetric(key);
+  for (const Metric& metric : MetricsShownIn(Place::kPictureNote)) {
+    const double value = MetricValue(run, metric);
+    if (std::isnan(value)) continue;
     note += fmt::format("{}{} {}{}", note.empty() ? "" : " · ", metric.label,
-                        Printed(found->get<double>(), metric),
-                        metric.unit.empty() ? "" : " " + metric.unit);
+                        Printed(value, metric), metric.unit.empty() ? "" : " " + metric.unit);
   }
   return note;
 }

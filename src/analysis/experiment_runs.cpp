@@ -1,6 +1,7 @@
 #include "analysis/experiment_runs.h"
 
 #include "core/error.h"
+#include "records/metric_value.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -24,7 +25,9 @@ ReportedExperiment ReadExperiment(const fs::path& folder) {
       run.problem = "missing: it has not been run, or was interrupted";
     } else {
       try {
-        run.record = ReadRunRecord(folder, run_id);
+        RunRecord record = ReadRunRecord(folder, run_id);
+        run.problem = UnknownMetricsProblem(record);
+        if (run.problem.empty()) run.record = std::move(record);
       } catch (const DataError& error) {
         run.problem = std::string("damaged: ") + error.what();
       }

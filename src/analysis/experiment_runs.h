@@ -1,4 +1,4 @@
-// An experiment as its report sees it: every run of the grid, there or not.
+// All runs of an experiment's grid: finished, failed or missing.
 #pragma once
 
 #include <filesystem>
@@ -24,8 +24,8 @@ struct ReportedExperiment {
   std::vector<const RunRecord*> finished() const;
 };
 
-// A run that failed, is missing or has a damaged record is there with its problem. DataError if the
-// folder holds no experiment.
+// A run that failed, is missing, has a damaged record or a metric that the catalogue does not know
+// is there with its problem. DataError if the folder holds no experiment.
 ReportedExperiment ReadExperiment(const std::filesystem::path& folder);
 
 }  // namespace vitruvia

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/markup.h"
+#include "metrics/catalogue.h"
 
 namespace vitruvia {
 namespace {
@@ -19,12 +20,21 @@ std::string ChangeInPercent(const Finding& finding) {
   return fmt::format("{:+.1f} %", 1e2 * (finding.is - finding.was) / std::abs(finding.was));
 }
 
-const char* UnitOf(const Finding& finding) {
-  if (finding.kind == NumberKind::kSpeed) return " × calibration";
-  if (finding.metric.ends_with("_m")) return " m";
-  if (finding.metric.ends_with("_deg")) return " °";
-  if (finding.metric.ends_with("_kg")) return " kg";
-  return "";
+// The values of a finding in the unit that people read.
+struct PrintedFinding {
+  std::string was, is, limit, unit;
+};
+
+PrintedFinding PrintedNumbers(const Finding& finding) {
+  double scale = 1.0;
+  std::string unit = " × calibration";
+  if (finding.kind == NumberKind::kAccuracy) {
+    const Metric metric = FindMetric(finding.metric);
+    scale = metric.scale;
+    unit = metric.unit.empty() ? "" : " " + metric.unit;
+  }
+  return {Digits(scale * finding.was), Digits(scale * finding.is), Digits(scale * finding.limit),
+          unit};
 }
 
 std::string BlameText(const Blame& blame) {
@@ -62,8 +72,9 @@ std::string RegressionLines(const Judgement& judgement, const std::string& run, 
   std::string lines;
   for (const Finding* f : judgement.Regressions(kind)) {
     if (f->run != run) continue;
+    const PrintedFinding numbers = PrintedNumbers(*f);
     lines += fmt::format("{}{}: was {}, is {}, limit {}{}; first bad {}", lines.empty() ? "" : "\n",
-                         f->metric, Digits(f->was), Digits(f->is), Digits(f->limit), UnitOf(*f),
+                         f->metric, numbers.was, numbers.is, numbers.limit, numbers.unit,
                          BlameText(f->blame));
   }
   return lines;
@@ -76,9 +87,10 @@ std::string FindingTable(const std::string& title, const std::vector<const Findi
       "|\n|---|---|---|---|---|---|---|\n",
       title);
   for (const Finding* f : findings) {
+    const PrintedFinding numbers = PrintedNumbers(*f);
     text += fmt::format("| `{}` | {} | {}{} | {} | {} | {} | {} |\n", f->run, f->metric,
-                        Digits(f->was), UnitOf(*f), Digits(f->is), ChangeInPercent(*f),
-                        Digits(f->limit), BlameText(f->blame));
+                        numbers.was, numbers.unit, numbers.is, ChangeInPercent(*f), numbers.limit,
+                        BlameText(f->blame));
   }
   return text + "\n";
 }

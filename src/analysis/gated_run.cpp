@@ -1,7 +1,6 @@
 #include "analysis/gated_run.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/error.h"
@@ -11,25 +10,9 @@
 namespace vitruvia {
 namespace {
 
-// What a run can get worse in; a run has those of its kind of experiment.
-constexpr std::array kAccuracyMetrics = {
-    "frames_failed",     "frames_lost",        "non_finite",       "l2_mean_m",
-    "l2_max_m",          "l2_mean_visible_m",  "l2_mean_hidden_m", "joint_error_mean_m",
-    "joint_error_max_m", "joints_within_10cm", "twist_rms_deg",    "jitter_rms_rad_s2",
-    "surface_mean_m",    "surface_p95_m",      "surface_max_m",    "surface_rmse_m",
-    "vertex_mean_m",     "height_error_m",     "weight_error_kg",  "scan_to_truth_mean_m",
-    "camera_error_max_m"};
-
-struct TimedSummary {
-  const char* name;
-  const char* metric;
-};
-constexpr std::array kTimedSummaries = {TimedSummary{kWholeFrame, "frame_ms_median"},
-                                        TimedSummary{"fit", "fit_ms"}};
-
 std::map<std::string, double> TimesOf(const RunRecord& run) {
   std::map<std::string, double> times_ms;
-  for (const TimedSummary& timed : kTimedSummaries) {
+  for (const WholeTime& timed : kWholeTimes) {
     const double ms = MetricValue(run, timed.metric);
     if (!std::isnan(ms)) times_ms[timed.name] = ms;
   }
@@ -70,14 +53,13 @@ GatedRun MakeGatedRun(const std::string& experiment, std::span<const RunRecord> 
   gated.method = first.method;
   gated.seed = first.seed;
   gated.repeats = static_cast<int>(repeats.size());
-  for (const char* metric : kAccuracyMetrics) {
+  for (const Metric& metric : MetricsShownIn(Place::kGate)) {
     const double value = MetricValue(first, metric);
-    if (!std::isnan(value)) gated.accuracy[metric] = value;
-    for (const RunRecord& repeat : repeats) {
-      if (IsSame(MetricValue(repeat, metric), value)) continue;
-      gated.unsteady.emplace_back(metric);
-      break;
-    }
+    if (!std::isnan(value)) gated.accuracy[metric.key] = value;
+    const bool is_steady = std::all_of(
+        repeats.begin(), repeats.end(),
+        [&](const RunRecord& repeat) { return IsSame(MetricValue(repeat, metric), value); });
+    if (!is_steady) gated.unsteady.push_back(metric.key);
   }
   MeasureSpeed(repeats, gated);
   std::vector<double> calibrations_ms;

@@ -1,6 +1,7 @@
 // What the regression gate holds against its baseline: the numbers of one run over its repeats.
 #pragma once
 
+#include <array>
 #include <map>
 #include <span>
 #include <string>
@@ -11,8 +12,15 @@
 
 namespace vitruvia {
 
-// The speed of a whole frame, beside that of its steps.
+// What is timed as a whole, beside the steps of a frame: the name that a GatedRun keeps its speed
+// under, and the metric that it is taken from. A run has one of them; the first is the main one.
 inline constexpr const char* kWholeFrame = "frame";
+struct WholeTime {
+  const char* name;
+  const char* metric;
+};
+inline constexpr std::array kWholeTimes = {WholeTime{kWholeFrame, "frame_ms_median"},
+                                           WholeTime{"fit", "fit_ms"}};
 
 // Named without the hash of its config, since a changed default must be seen as a change, not as
 // another run.
@@ -20,14 +28,14 @@ struct GatedRun {
   std::string experiment, variant, scene, method;
   int seed = 0;
   int repeats = 0;
-  // By metric, of the first repeat: the same in all, or `unsteady` names those that are not.
+  // By key of the metrics of Place::kGate, of the first repeat: the same in all repeats, or
+  // `unsteady` names those that are not.
   std::map<std::string, double> accuracy;
   std::vector<std::string> unsteady;
-  // By name of what was timed ("frame", a step, "fit"): its time as a multiple of the calibration
+  // By name of what was timed (kWholeTimes or a step): its time as a multiple of the calibration
   // kernel's in the same process (core/calibration.h), the median over the repeats.
   std::map<std::string, double> speed;
-  // By the same names, half the range over the repeats as a share of the median: how far the clock
-  // is to be believed.
+  // By the same names, half the range over the repeats as a share of the median.
   std::map<std::string, double> speed_noise;
   double calibration_ms = 0.0;  // median over the repeats
 

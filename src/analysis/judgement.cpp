@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "records/metric_value.h"
+#include "metrics/catalogue.h"
 
 namespace vitruvia {
 namespace {
@@ -19,7 +19,11 @@ struct Limits {
 
 Limits AccuracyLimits(const std::string& metric, double was, double tolerance) {
   const double allowed = std::max(tolerance * std::abs(was), kSmallestAccuracy);
-  const double sign = HigherIsBetter(metric) ? -1.0 : 1.0;
+  const Better better = FindMetric(metric).better;
+  if (better == Better::kNeither)
+    throw DataError(
+        fmt::format("baseline: {}: neither a lower nor a higher value is better", metric));
+  const double sign = better == Better::kHigher ? -1.0 : 1.0;
   return {was + sign * allowed, was - sign * allowed};
 }
 

@@ -1,6 +1,7 @@
 #include "analysis/paired_comparison.h"
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -11,21 +12,6 @@
 
 namespace vitruvia {
 namespace {
-
-constexpr int kBisections = 200;  // halves any interval of doubles to nothing
-
-// P(|T| ≤ t): finite sums for whole degrees of freedom (Abramowitz & Stegun 26.7.3 and 26.7.4).
-double StudentProbability(double t, int degrees_of_freedom) {
-  const double angle = std::atan(t / std::sqrt(static_cast<double>(degrees_of_freedom)));
-  const double cos2 = std::cos(angle) * std::cos(angle);
-  const bool odd = degrees_of_freedom % 2 == 1;
-  double term = odd ? std::cos(angle) : 1.0, sum = 0.0;
-  for (int k = odd ? 3 : 2; k <= degrees_of_freedom; k += 2) {
-    sum += term;
-    term *= cos2 * (k - 1) / k;
-  }
-  return odd ? 2.0 / std::numbers::pi * (angle + std::sin(angle) * sum) : std::sin(angle) * sum;
-}
 
 // The share of resampled means to cut off at either end.
 double ExpandedTail(double confidence, std::size_t count) {
@@ -72,13 +58,8 @@ SampleSpread SpreadOf(std::span<const double> values) {
 double StudentQuantile(double confidence, int degrees_of_freedom) {
   Require(confidence > 0.0 && confidence < 1.0, "StudentQuantile: confidence {}", confidence);
   Require(degrees_of_freedom >= 1, "StudentQuantile: {} degrees of freedom", degrees_of_freedom);
-  double low = 0.0, high = 1.0;
-  while (StudentProbability(high, degrees_of_freedom) < confidence) high *= 2.0;
-  for (int i = 0; i < kBisections; ++i) {
-    const double middle = 0.5 * (low + high);
-    (StudentProbability(middle, degrees_of_freedom) < confidence ? low : high) = middle;
-  }
-  return high;
+  const boost::math::students_t distribution(degrees_of_freedom);
+  return boost::math::quantile(distribution, 0.5 * (1.0 + confidence));
 }
 
 Interval BootstrapMeanInterval(std::span<const double> values, const BootstrapSettings& settings) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "analysis/tables.h"
+#include "records/metric_value.h"
 
 namespace vitruvia {
 namespace {
@@ -46,7 +47,7 @@ std::string LatexEscaped(const std::string& text) {
 
 // Typographic signs as LaTeX's default encodings know them.
 std::string LatexNumber(const std::string& printed) {
-  if (printed == "–") return "--";
+  if (printed == kNoNumber) return "--";
   const std::string minus = "−";
   const std::size_t at = printed.find(minus);
   if (at == std::string::npos) return LatexEscaped(printed);
@@ -94,7 +95,7 @@ std::string LatexComparison(const ReportedExperiment& experiment) {
 std::string LatexSummary(const ReportedExperiment& experiment) {
   const SummaryTable table = MakeSummaryTable(experiment);
   std::string header, rows;
-  for (const MetricName& column : table.columns) {
+  for (const Metric& column : table.columns) {
     header += fmt::format("{}{}", header.empty() ? "" : " & ", LatexEscaped(Titled(column)));
   }
   for (const SummaryTable::Row& row : table.rows) {
@@ -129,7 +130,7 @@ std::vector<Expectation> PublishedNumbers(const ExperimentRecord& experiment) {
 std::string ToCsv(const ReportedExperiment& experiment) {
   const SummaryTable table = MakeSummaryTable(experiment);
   std::string csv;
-  for (const MetricName& column : table.columns) csv += CsvCell(column.key) + ",";
+  for (const Metric& column : table.columns) csv += CsvCell(column.key) + ",";
   csv += "status";
   const std::vector<Expectation> published = PublishedNumbers(experiment.record);
   for (const Expectation& e : published) csv += fmt::format(",{0}_paper,{0}_difference", e.metric);
@@ -142,10 +143,8 @@ std::string ToCsv(const ReportedExperiment& experiment) {
       const auto& record = experiment.runs[r].record;
       const bool about = !record || e.IsAbout(record->scene);
       csv += fmt::format(",{},", about ? CsvCell(nlohmann::json(e.paper)) : "");
-      if (about && record && record->summary.contains(e.metric) &&
-          record->summary[e.metric].is_number()) {
-        csv += CsvCell(nlohmann::json(record->summary[e.metric].get<double>() - e.paper));
-      }
+      const double ours = about && record ? MetricValue(*record, e.metric) : NAN;
+      if (!std::isnan(ours)) csv += CsvCell(nlohmann::json(ours - e.paper));
     }
     csv += "\r\n";
   }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
+#include "records/metric_value.h"
 
 #include "tracking/realtime_scape_steps.h"
 
@@ -12,22 +12,7 @@ namespace vitruvia {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-constexpr std::array kFirstColumns = {"run_id",
-                                      "variant",
-                                      "scene",
-                                      "method",
-                                      "seed",
-                                      "frames",
-                                      "frames_failed",
-                                      "l2_mean_m",
-                                      "l2_mean_of_diagonal",
-                                      "l2_max_of_diagonal",
-                                      "joint_error_mean_m",
-                                      "joints_within_10cm",
-                                      "frame_ms_median",
-                                      "frame_ms_p95",
-                                      "iterations_mean"};
+constexpr const char* kRunColumn = "run_id";
 
 // Paper A, table 1: milliseconds on one 3.4 GHz CPU, and 3.5 iterations a frame.
 constexpr double kPaperIterations = 3.5;
@@ -46,20 +31,10 @@ constexpr std::array kTable1 = {PublishedStep{RealtimeScapeStep::kCloudTree, 4.2
                                 PublishedStep{RealtimeScapeStep::kUpdate, 0.4, true}};
 constexpr double kTable1Total_ms = 25.0;
 
-const nlohmann::json* FindNumber(const RunRecord& run, const std::string& key) {
-  const auto found = run.summary.find(key);
-  return found != run.summary.end() && found->is_number() ? &*found : nullptr;
-}
-
-double NumberOrNone(const RunRecord& run, const std::string& key) {
-  const nlohmann::json* number = FindNumber(run, key);
-  return number == nullptr ? kNone : number->get<double>();
-}
-
-ComparedRun Compare(const ReportedRun& run, const Expectation& e, const MetricName& metric) {
-  ComparedRun compared{run.run_id, "–", "–", Verdict::kNoResult, run.problem};
+ComparedRun Compare(const ReportedRun& run, const Expectation& e, const Metric& metric) {
+  ComparedRun compared{run.run_id, kNoNumber, kNoNumber, Verdict::kNoResult, run.problem};
   if (!run.record) return compared;
-  const double ours = NumberOrNone(*run.record, e.metric);
+  const double ours = MetricValue(*run.record, metric);
   if (std::isnan(ours)) return compared;
   compared.ours = Printed(ours, metric);
   if (!std::isnan(e.paper) && e.not_comparable.empty())
@@ -75,13 +50,31 @@ ComparedRun Compare(const ReportedRun& run, const Expectation& e, const MetricNa
   return compared;
 }
 
+bool AnyHas(const std::vector<const RunRecord*>& runs, const std::string& key) {
+  return std::any_of(runs.begin(), runs.end(),
+                     [&](const RunRecord* run) { return run->summary.contains(key); });
+}
+
+// The run's name, then the metrics that some run has; all leading ones while no run has finished.
+std::vector<Metric> ColumnsOf(const std::vector<const RunRecord*>& finished) {
+  std::vector<Metric> columns, others;
+  for (const Metric& metric : MetricCatalogue()) {
+    const bool leads = metric.IsShownIn(Place::kSummaryTable);
+    const bool is_used =
+        AnyHas(finished, metric.key) || metric.key == kRunColumn || (leads && finished.empty());
+    if (is_used) (leads ? columns : others).push_back(metric);
+  }
+  columns.insert(columns.end(), others.begin(), others.end());
+  return columns;
+}
+
 }  // namespace
 
 std::vector<Comparison> CompareWithPapers(const ReportedExperiment& experiment) {
   std::vector<Comparison> comparisons;
   for (const Expectation& e : experiment.record.expectations) {
-    Comparison comparison{e, NameOfMetric(e.metric), "", "", {}};
-    comparison.paper = std::isnan(e.paper) ? "–" : Printed(e.paper, comparison.metric);
+    Comparison comparison{e, FindMetric(e.metric), "", "", {}};
+    comparison.paper = std::isnan(e.paper) ? kNoNumber : Printed(e.paper, comparison.metric);
     const double target = comparison.more_is_better() ? e.at_least : e.at_most;
     if (!std::isnan(target)) comparison.target = Printed(target, comparison.metric);
     for (const ReportedRun& run : experiment.runs) {
@@ -94,34 +87,13 @@ std::vector<Comparison> CompareWithPapers(const ReportedExperiment& experiment) 
 }
 
 SummaryTable MakeSummaryTable(const ReportedExperiment& experiment) {
-  const std::vector<const RunRecord*> finished = experiment.finished();
-  std::vector<std::string> keys;
-  for (const char* key : kFirstColumns) {  // without those that no run has, but for the run's name
-    const bool used = finished.empty() || key == std::string("run_id") ||
-                      std::any_of(finished.begin(), finished.end(), [key](const RunRecord* run) {
-                        return run->summary.contains(key);
-                      });
-    if (used) keys.emplace_back(key);
-  }
-  std::vector<std::string> others;
-  for (const RunRecord* run : finished) {
-    for (const auto& item : run->summary.items()) {
-      if (std::find(keys.begin(), keys.end(), item.key()) == keys.end() &&
-          std::find(others.begin(), others.end(), item.key()) == others.end()) {
-        others.push_back(item.key());
-      }
-    }
-  }
-  std::sort(others.begin(), others.end());
-  keys.insert(keys.end(), others.begin(), others.end());
-
   SummaryTable table;
-  for (const std::string& key : keys) table.columns.push_back(NameOfMetric(key));
+  table.columns = ColumnsOf(experiment.finished());
   for (const ReportedRun& run : experiment.runs) {
     SummaryTable::Row row{run.run_id, run.problem, {}};
-    for (const std::string& key : keys) {
-      const bool has = run.record && run.record->summary.contains(key);
-      row.cells.push_back(has ? run.record->summary.at(key) : nlohmann::json(nullptr));
+    for (const Metric& column : table.columns) {
+      const bool has = run.record && run.record->summary.contains(column.key);
+      row.cells.push_back(has ? run.record->summary.at(column.key) : nlohmann::json(nullptr));
     }
     row.cells.front() = run.run_id;
     table.rows.push_back(std::move(row));
@@ -148,7 +120,7 @@ std::vector<StepRow> CompareSteps(const RunRecord& run) {
     slowest_ms = *std::max_element(times->second.begin(), times->second.end());
   }
   rows.push_back({"whole frame", kNone, published ? kTable1Total_ms : kNone,
-                  NumberOrNone(run, "frame_ms_median"), NumberOrNone(run, "frame_ms_p95"),
+                  MetricValue(run, "frame_ms_median"), MetricValue(run, "frame_ms_p95"),
                   slowest_ms});
   return rows;
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/experiment_runs.h"
-#include "analysis/metric_names.h"
+#include "analysis/printed_metric.h"
 
 namespace vitruvia {
 
@@ -22,7 +22,7 @@ struct ComparedRun {
 // One published number and every run's beside it.
 struct Comparison {
   Expectation expectation;
-  MetricName metric;
+  Metric metric;
   std::string paper, target;  // printed; target "" where there is none
   std::vector<ComparedRun> runs;
 
@@ -30,9 +30,10 @@ struct Comparison {
 };
 std::vector<Comparison> CompareWithPapers(const ReportedExperiment& experiment);
 
-// All summary rows. Columns: those every report has first, then the others by name.
+// All summary rows. Columns: those of Place::kSummaryTable first, then the others that a run has,
+// in the order of the catalogue.
 struct SummaryTable {
-  std::vector<MetricName> columns;
+  std::vector<Metric> columns;
   struct Row {
     std::string run_id, problem;
     std::vector<nlohmann::json> cells;  // as stored; null where the run has none

@@ -1,29 +1,15 @@
 #include "analysis/variant_comparison.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>
 
-#include "config/json_node.h"
-#include "config/json_settings.h"
 #include "core/error.h"
 #include "records/metric_value.h"
 
 namespace vitruvia {
 namespace {
-
-constexpr std::array kComparedMetrics = {
-    "frames_failed",      "frames_lost",        "l2_mean_of_diagonal", "l2_max_of_diagonal",
-    "joint_error_mean_m", "joints_within_10cm", "twist_rms_deg",       "jitter_rms_rad_s2",
-    "surface_mean_m",     "surface_max_m",      "height_error_m",      "weight_error_kg",
-    "frame_ms_median",    "frame_ms_p95",       kCalibratedTime};
-
-// What one looks at first.
-constexpr std::array kTabulatedMetrics = {
-    "frames_failed",      "l2_mean_of_diagonal", "l2_max_of_diagonal", "joint_error_mean_m",
-    "joints_within_10cm", "surface_mean_m",      "surface_max_m",      "frame_ms_median"};
 
 struct RunPair {
   const RunRecord* reference;
@@ -37,8 +23,7 @@ struct PairedRuns {
 
 // What two runs must share to be a pair.
 std::string PairKey(const RunRecord& run) {
-  const double repeat = MetricValue(run, "repeat");
-  return fmt::format("{}\n{}\n{}", run.scene, run.seed, std::isnan(repeat) ? 1.0 : repeat);
+  return fmt::format("{}\n{}\n{}", run.scene, run.seed, RepeatOf(run));
 }
 
 PairedRuns Paired(const Contender& reference, const Contender& other) {
@@ -55,44 +40,45 @@ PairedRuns Paired(const Contender& reference, const Contender& other) {
   return paired;
 }
 
-// Those asked for, or the usual ones that some pair has; counts of failures only if there are any.
-std::vector<std::string> MetricsToCompare(const std::vector<RunPair>& pairs,
-                                          const std::vector<std::string>& asked) {
-  const auto is_there = [&](const std::string& key) {
-    return std::any_of(pairs.begin(), pairs.end(), [&](const RunPair& pair) {
-      return !std::isnan(MetricValue(*pair.reference, key)) &&
-             !std::isnan(MetricValue(*pair.other, key));
-    });
-  };
-  const auto says_something = [&](const std::string& key) {  // not 0 in all runs
-    return is_there(key) && std::any_of(pairs.begin(), pairs.end(), [&](const RunPair& pair) {
-             return MetricValue(*pair.reference, key) != 0.0 ||
-                    MetricValue(*pair.other, key) != 0.0;
-           });
-  };
-  std::vector<std::string> metrics;
-  if (asked.empty()) {
-    std::copy_if(kComparedMetrics.begin(), kComparedMetrics.end(), std::back_inserter(metrics),
-                 says_something);
-    return metrics;
-  }
-  for (const std::string& key : asked) {
-    if (is_there(key)) continue;
-    std::vector<std::string> known;
-    for (const RunPair& pair : pairs) {
-      for (const auto& item : pair.other->summary.items()) known.push_back(item.key());
-    }
-    const std::string nearest = NearestWord(key, known);
-    throw ConfigError(
-        fmt::format("metric \"{}\": no pair of runs has it{}", key,
-                    nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
-  }
-  return asked;
+bool BothHave(const RunPair& pair, const Metric& metric) {
+  return !std::isnan(MetricValue(*pair.reference, metric)) &&
+         !std::isnan(MetricValue(*pair.other, metric));
 }
 
-VariantComparison Compared(const PairedRuns& paired, const std::string& metric) {
-  VariantComparison row{
-      NameOfMetric(metric), paired.reference, paired.other, paired.unpaired, {}, {}, {}};
+bool IsZeroInBoth(const RunPair& pair, const Metric& metric) {
+  return MetricValue(*pair.reference, metric) == 0.0 && MetricValue(*pair.other, metric) == 0.0;
+}
+
+bool SomePairHas(const std::vector<RunPair>& pairs, const Metric& metric) {
+  return std::any_of(pairs.begin(), pairs.end(),
+                     [&](const RunPair& pair) { return BothHave(pair, metric); });
+}
+
+// Those of Place::kComparison that some pair has and that are not 0 in all runs.
+std::vector<Metric> UsualMetrics(const std::vector<RunPair>& pairs) {
+  std::vector<Metric> metrics = MetricsShownIn(Place::kComparison);
+  std::erase_if(metrics, [&](const Metric& metric) {
+    return !SomePairHas(pairs, metric) ||
+           std::all_of(pairs.begin(), pairs.end(),
+                       [&](const RunPair& pair) { return IsZeroInBoth(pair, metric); });
+  });
+  return metrics;
+}
+
+std::vector<Metric> MetricsToCompare(const std::vector<RunPair>& pairs,
+                                     const std::vector<std::string>& asked) {
+  if (asked.empty()) return UsualMetrics(pairs);
+  std::vector<Metric> metrics;
+  for (const std::string& key : asked) {
+    metrics.push_back(FindMetric(key));
+    if (!SomePairHas(pairs, metrics.back()))
+      throw ConfigError(fmt::format("metric \"{}\": no pair of runs has it", key));
+  }
+  return metrics;
+}
+
+VariantComparison Compared(const PairedRuns& paired, const Metric& metric) {
+  VariantComparison row{metric, paired.reference, paired.other, paired.unpaired, {}, {}, {}};
   std::vector<double> reference, other;
   for (const RunPair& pair : paired.pairs) {
     const double a = MetricValue(*pair.reference, metric), b = MetricValue(*pair.other, metric);
@@ -116,7 +102,7 @@ std::vector<VariantComparison> Table(const std::vector<PairedRuns>& all,
   for (const PairedRuns& paired : all)
     pairs.insert(pairs.end(), paired.pairs.begin(), paired.pairs.end());
   std::vector<VariantComparison> rows;
-  for (const std::string& metric : MetricsToCompare(pairs, asked)) {
+  for (const Metric& metric : MetricsToCompare(pairs, asked)) {
     for (const PairedRuns& paired : all) {
       const VariantComparison row = Compared(paired, metric);
       if (row.other_spread.count > 0) rows.push_back(row);
@@ -149,7 +135,7 @@ std::vector<Contender> ContendersByFullName(const ReportedExperiment& experiment
   return contenders;
 }
 
-std::vector<double> ValuesOf(const Contender& contender, const std::string& metric) {
+std::vector<double> ValuesOf(const Contender& contender, const Metric& metric) {
   std::vector<double> values;
   for (const RunRecord* run : contender.runs) {
     const double value = MetricValue(*run, metric);
@@ -158,19 +144,18 @@ std::vector<double> ValuesOf(const Contender& contender, const std::string& metr
   return values;
 }
 
-// Without those that are 0 in all runs; means of counts are no whole numbers.
-std::vector<MetricName> TabulatedMetrics(const std::vector<Contender>& contenders) {
-  std::vector<MetricName> metrics;
-  for (const char* metric : kTabulatedMetrics) {
-    const bool says_something =
-        std::any_of(contenders.begin(), contenders.end(), [metric](const Contender& contender) {
-          const std::vector<double> values = ValuesOf(contender, metric);
-          return std::any_of(values.begin(), values.end(), [](double v) { return v != 0.0; });
-        });
-    if (!says_something) continue;
-    metrics.push_back(NameOfMetric(metric));
-    metrics.back().decimals = std::max(metrics.back().decimals, 1);
-  }
+bool IsZeroInAll(const std::vector<Contender>& contenders, const Metric& metric) {
+  return std::all_of(contenders.begin(), contenders.end(), [&](const Contender& contender) {
+    const std::vector<double> values = ValuesOf(contender, metric);
+    return std::all_of(values.begin(), values.end(), [](double value) { return value == 0.0; });
+  });
+}
+
+// Means of counts are printed with a decimal.
+std::vector<Metric> TabulatedMetrics(const std::vector<Contender>& contenders) {
+  std::vector<Metric> metrics = MetricsShownIn(Place::kVariantTable);
+  std::erase_if(metrics, [&](const Metric& metric) { return IsZeroInAll(contenders, metric); });
+  for (Metric& metric : metrics) metric.decimals = std::max(metric.decimals, 1);
   return metrics;
 }
 
@@ -221,10 +206,10 @@ VariantTable TabulateVariants(const ReportedExperiment& experiment) {
     const bool is_reference = &contender == &contenders.front();
     const PairedRuns paired = Paired(contenders.front(), contender);
     VariantSummary row{contender.name, static_cast<int>(contender.runs.size()), {}};
-    for (const MetricName& metric : table.metrics) {
-      row.cells.push_back({SpreadOf(ValuesOf(contender, metric.key)), std::nullopt});
+    for (const Metric& metric : table.metrics) {
+      row.cells.push_back({SpreadOf(ValuesOf(contender, metric)), std::nullopt});
       if (is_reference) continue;
-      const VariantComparison difference = Compared(paired, metric.key);
+      const VariantComparison difference = Compared(paired, metric);
       if (difference.other_spread.count > 0) row.cells.back().difference = difference;
     }
     table.rows.push_back(std::move(row));

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "analysis/experiment_runs.h"
-#include "analysis/metric_names.h"
 #include "analysis/paired_comparison.h"
+#include "analysis/printed_metric.h"
 
 namespace vitruvia {
 
@@ -21,7 +21,7 @@ std::vector<Contender> ContendersOf(const ReportedExperiment& experiment);
 
 // One metric of one contender against the reference, paired by scene, seed and repeat.
 struct VariantComparison {
-  MetricName metric;
+  Metric metric;
   std::string reference, other;
   int unpaired = 0;  // runs of either side without a partner: failed, missing, or of another grid
   SampleSpread reference_spread, other_spread;  // over the pairs
@@ -54,7 +54,7 @@ struct VariantSummary {
   std::vector<Cell> cells;  // one for each metric of the table
 };
 struct VariantTable {
-  std::vector<MetricName> metrics;   // the few that a reader looks at first
+  std::vector<Metric> metrics;       // the few that a reader looks at first
   std::vector<VariantSummary> rows;  // the first is the reference
 };
 VariantTable TabulateVariants(const ReportedExperiment& experiment);

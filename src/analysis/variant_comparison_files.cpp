@@ -5,7 +5,6 @@
 
 #include "analysis/variant_comparison.h"
 #include "config/json_node.h"
-#include "records/metric_value.h"
 
 namespace vitruvia {
 namespace {
@@ -24,14 +23,15 @@ nlohmann::json SpreadToJson(const SampleSpread& spread) {
 std::string VerdictText(const VariantComparison& row) {
   const Difference verdict = row.comparison.verdict;
   if (verdict == Difference::kTooFewPairs || verdict == Difference::kNone) return Name(verdict);
-  const bool better = (verdict == Difference::kHigher) == HigherIsBetter(row.metric.key);
+  if (row.metric.better == Better::kNeither) return Name(verdict);
+  const bool better = (verdict == Difference::kHigher) == (row.metric.better == Better::kHigher);
   return fmt::format("{} ({})", Name(verdict), better ? "better" : "worse");
 }
 
 std::string RelativeText(const VariantComparison& row) {
   const double share = row.comparison.difference.mean / row.reference_spread.mean;
-  if (!std::isfinite(share)) return "–";
-  return PrintedSigned(share, {"", "", "%", 1e2, 1}) + " %";
+  if (!std::isfinite(share)) return kNoNumber;
+  return SignedNumber(1e2 * share, 1) + " %";
 }
 
 nlohmann::json ToJson(const std::vector<VariantComparison>& rows) {

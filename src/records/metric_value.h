@@ -1,23 +1,27 @@
-// The numbers of a run by name: those of its summary row, and those that follow from its record.
+// The values of a run's metrics (metrics/catalogue.h).
 #pragma once
 
 #include <string>
 
+#include "metrics/catalogue.h"
 #include "records/run_record.h"
 
 namespace vitruvia {
 
-// The median time of a frame as a multiple of the calibration kernel's (core/calibration.h), taken
-// in the same process: compares across machines.
-inline constexpr const char* kCalibratedTime = "frame_median_per_calibration";
-
-// What the calibration kernel took in the run's process, ms; NaN in records of before it.
+// The time of the calibration kernel in the run's process, ms; NaN in records without it.
 double CalibrationOf(const RunRecord& run);
 
-// NaN where the run has no such number.
+// The metric's stored number in the summary row, of a joint or of a step, or the number that
+// follows from the record (kCalibratedTime). NaN where the run has none.
+double MetricValue(const RunRecord& run, const Metric& metric);
+// The same by key; ConfigError if the catalogue does not have the key.
 double MetricValue(const RunRecord& run, const std::string& key);
 
-// Shares of what was found; everything else is an error, a time or a count of failures.
-bool HigherIsBetter(const std::string& key);
+// Which repetition of its run this is, from 1.
+int RepeatOf(const RunRecord& run);
+
+// "" if the catalogue has every key of the summary row and of the series per frame, else what is
+// wrong.
+std::string UnknownMetricsProblem(const RunRecord& run);
 
 }  // namespace vitruvia

@@ -207,9 +207,8 @@ TEST(GateReports, NameRunMetricWasIsToleranceAndBlame) {
   const Judgement judgement = Judge(baseline, measured, {}, {Entry("ccc", 0.01)}, "now0000");
   const GateOccasion occasion{"Nightly", "2026-01-03", "now0000", "cpu", {}, baseline, measured};
   const std::string markdown = ToMarkdown(occasion, judgement);
-  EXPECT_THAT(markdown,
-              HasSubstr("| `nightly: default.walk.realtime_scape.s1` | l2_mean_m | 0.01 m "
-                        "| 0.02 | +100.0 % | 0.01001 | now0000 (good at ccc) |"));
+  EXPECT_THAT(markdown, HasSubstr("| `nightly: default.walk.realtime_scape.s1` | l2_mean_m | 10 mm "
+                                  "| 20 | +100.0 % | 10.01 | now0000 (good at ccc) |"));
   EXPECT_THAT(markdown, HasSubstr("# Nightly: failed: 1 run"));
   EXPECT_THAT(markdown, HasSubstr("- `nightly: x<y>`: crashed"));
   const std::string junit = ToJunit(occasion, judgement);

@@ -3,28 +3,35 @@
 #include <cmath>
 #include <limits>
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
+
+#include "core/error.h"
+#include "support/temporary_folder.h"
 
 namespace vitruvia {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-TEST(MetricNames, PrintInTheUnitsOfTheReader) {
-  EXPECT_EQ(Titled(NameOfMetric("l2_mean_m")), "mean L2 error (mm)");
-  EXPECT_EQ(Printed(0.00123, NameOfMetric("l2_mean_m")), "1.23");
-  EXPECT_EQ(Printed(0.987, NameOfMetric("joints_within_10cm")), "98.70");
-  EXPECT_EQ(PrintedSigned(-0.0005, NameOfMetric("l2_mean_of_diagonal")), "−0.00050");
-  EXPECT_EQ(PrintedSigned(2.0, NameOfMetric("frame_ms_p95")), "+2.0");
-  EXPECT_EQ(PrintedCell(nullptr, NameOfMetric("l2_mean_m")), "–");
-  EXPECT_EQ(PrintedCell(300, NameOfMetric("frames")), "300");
+TEST(PrintedMetric, IsInTheUnitsOfTheReader) {
+  EXPECT_EQ(Titled(FindMetric("l2_mean_m")), "mean L2 error (mm)");
+  EXPECT_EQ(Printed(0.00123, FindMetric("l2_mean_m")), "1.23");
+  EXPECT_EQ(Printed(0.987, FindMetric("joints_within_10cm")), "98.70");
+  EXPECT_EQ(PrintedSigned(-0.0005, FindMetric("l2_mean_of_diagonal")), "−0.00050");
+  EXPECT_EQ(PrintedSigned(2.0, FindMetric("frame_ms_p95")), "+2.0");
+  EXPECT_EQ(PrintedCell(nullptr, FindMetric("l2_mean_m")), "–");
+  EXPECT_EQ(PrintedCell(300, FindMetric("frames")), "300");
 }
 
-TEST(MetricNames, UnknownOnesAreReadFromTheirEnding) {
-  EXPECT_EQ(Titled(NameOfMetric("l2_mean_visible_m")), "l2 mean visible (mm)");
-  EXPECT_EQ(Titled(NameOfMetric("solve_ms")), "solve (ms)");
-  EXPECT_EQ(Titled(NameOfMetric("joints_hidden_within_5cm")), "joints hidden within 5cm (%)");
-  EXPECT_EQ(Titled(NameOfMetric("wobble")), "wobble");
+TEST(PrintedMetric, IsExplainedWithUnitAndDirection) {
+  EXPECT_EQ(Explanation(FindMetric("frame_ms_p95")),
+            "frame_ms_p95\n  time per frame, 95th percentile\n  95th percentile over the frames of "
+            "frame_ms.\n  unit:    ms\n  better:  lower is better\n");
+  EXPECT_THAT(Explanation(FindMetric("joints_within_10cm")),
+              testing::HasSubstr("  unit:    % in tables; stored value × 100\n"
+                                 "  better:  higher is better\n"));
+  EXPECT_THAT(Explanation(FindMetric("frames")),
+              testing::EndsWith("tracked frames.\n  better:  neither is better\n"));
 }
 
 ReportedExperiment WithOneRun(double paper, double at_most, nlohmann::json ours) {
@@ -77,16 +84,30 @@ TEST(CompareSteps, MethodsOfOtherPapersGetNoNumbersOfPaperA) {
   EXPECT_TRUE(std::isnan(CompareSteps(run).back().paper_per_frame_ms));
 }
 
-TEST(SummaryTable, HasTheUsualColumnsFirstAndKeepsTheOthers) {
+TEST(SummaryTable, HasTheLeadingColumnsFirstAndTheOthersInTheOrderOfTheCatalogue) {
   ReportedExperiment experiment = WithOneRun(0.001, kNan, 0.5);
-  experiment.runs[0].record->summary["zeta"] = 1.5;
-  experiment.runs[0].record->summary["alpha_m"] = 2.5;
+  experiment.runs[0].record->summary["energy_mean"] = 1.5;
+  experiment.runs[0].record->summary["diagonal_m"] = 2.5;
   const SummaryTable table = MakeSummaryTable(experiment);
-  EXPECT_EQ(table.columns[0].key, "run_id");
-  EXPECT_EQ(table.columns[table.columns.size() - 2].key, "alpha_m");
-  EXPECT_EQ(table.columns.back().key, "zeta");
-  EXPECT_EQ(table.rows[0].cells.back(), 1.5);
-  EXPECT_EQ(table.rows[0].cells[0], "a");
+  std::vector<std::string> keys;
+  for (const Metric& column : table.columns) keys.push_back(column.key);
+  EXPECT_THAT(keys,
+              testing::ElementsAre("run_id", "l2_mean_of_diagonal", "diagonal_m", "energy_mean"));
+  EXPECT_THAT(table.rows[0].cells, testing::ElementsAre("a", 0.5, 2.5, 1.5));
+}
+
+TEST(ReadExperiment, RefusesARecordWithANumberThatNobodyDescribes) {
+  const TemporaryFolder folder;
+  ExperimentRecord experiment;
+  experiment.run_ids = {"a"};
+  WriteExperimentRecord(folder.path(), experiment);
+  RunRecord run;
+  run.run_id = "a";
+  run.summary = {{"l2_meen_m", 0.01}};
+  WriteRunRecord(folder.path(), run);
+  EXPECT_THAT([&] { ReadExperiment(folder.path()); },
+              testing::ThrowsMessage<DataError>(testing::HasSubstr(
+                  "record.json: summary: unknown metric \"l2_meen_m\"; did you mean")));
 }
 
 }  // namespace

@@ -74,11 +74,14 @@ TEST(CompareVariants, SharesAreBetterWhereTheyAreHigher) {
     for (const std::string variant : {"a", "b"}) {
       RunRecord run = MakeRun(variant, "walk", seed, 0.1);
       run.summary["joints_within_10cm"] = variant == "a" ? 0.5 : 0.6;
+      run.summary["joint_auc_30cm"] = variant == "a" ? 0.7 : 0.8;
       Add(experiment, run);
     }
   }
-  EXPECT_THAT(Verdicts(CompareVariants(experiment, "", {}), "joints_within_10cm"),
-              ElementsAre("b: higher (better)"));
+  for (const std::string metric : {"joints_within_10cm", "joint_auc_30cm"}) {
+    EXPECT_THAT(Verdicts(CompareVariants(experiment, "", {metric}), metric),
+                ElementsAre("b: higher (better)"));
+  }
 }
 
 TEST(CompareVariants, CountsRunsWithoutAPartnerAndCallsNothingOfFewPairs) {
@@ -107,8 +110,9 @@ TEST(CompareVariants, NamesWhatThereIsNot) {
   EXPECT_EQ(message(NinePairs(), "bass", {}),
             "out/nine: no variant \"bass\"; there are: base, worse, noisy");
   EXPECT_EQ(message(NinePairs(), "", {"frame_ms_medium"}),
-            "metric \"frame_ms_medium\": no pair of runs has it; did you mean "
-            "\"frame_ms_median\"?");
+            "unknown metric \"frame_ms_medium\"; did you mean \"frame_ms_median\"?");
+  EXPECT_EQ(message(NinePairs(), "", {"weight_error_kg"}),
+            "metric \"weight_error_kg\": no pair of runs has it");
   ReportedExperiment one;
   one.folder = "out/one";
   Add(one, MakeRun("base", "walk", 1, 0.1));

@@ -1,0 +1,24 @@
+// Metrics as people read them: scaled to the catalogue's unit, with its number of decimals.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "metrics/catalogue.h"
+
+namespace vitruvia {
+
+inline constexpr const char* kNoNumber = "–";  // where a value is missing
+
+std::string Printed(double value, const Metric& metric);  // without unit
+std::string PrintedSigned(double difference, const Metric& metric);
+std::string SignedNumber(double number, int decimals);
+// A cell of a summary row: number, text or null.
+std::string PrintedCell(const nlohmann::json& cell, const Metric& metric);
+// "label (unit)"
+std::string Titled(const Metric& metric);
+// Label, definition, unit and direction on a few lines.
+std::string Explanation(const Metric& metric);
+
+}  // namespace vitruvia

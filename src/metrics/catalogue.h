@@ -1,0 +1,72 @@
+// The metric catalogue: what each number of a run record means and how it is printed.
+//
+// Tables, plots, comparisons, the regression gate, `vitruvia explain` and the expectations of
+// experiment files take keys, labels, units, directions and selections from here. To add a metric,
+// add one entry to catalogue_entries.cpp and compute the number where its kind is scored
+// (src/scoring, or the study that measures it).
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace vitruvia {
+
+enum class Better { kLower, kHigher, kNeither };
+const char* Name(Better better);  // "lower is better" …
+
+// Where a metric is shown or used. Every metric that a run has is in the table of all runs and can
+// be compared on request; these are the selections for which there is no room for all.
+enum class Place {
+  kSummaryTable,  // the leading columns of the report's table of all runs
+  kVariantTable,  // the report's table with one row for each variant
+  kComparison,    // variants against each other
+  kTerminal,      // the rows that `vitruvia run` prints
+  kIndexPage,     // the table of all runs of an output folder
+  kGate,          // accuracy numbers that the regression gate holds against its baseline
+  kPictureNote,   // beside a run's pictures
+  kSpeedPlot,     // error axis of speed against error: the first of these that some run has
+  kHistoryPlot,   // error axis of the gate's history: the first of these that the experiment has
+};
+
+struct Metric {
+  std::string key{};    // of the summary row, or of the series per frame
+  std::string label{};  // for people, without unit
+  std::string unit{};   // of the printed number; "" for text, counts and ratios
+  double scale = 1.0;   // printed number = stored number × scale
+  int decimals = 0;     // of the printed number
+  Better better = Better::kNeither;
+  std::vector<Place> shown_in{};
+  std::string definition{};  // full sentences
+
+  // A member of a family (see MetricFamilies): the family's key, and which member it is.
+  std::string family{}, member{};
+
+  bool IsShownIn(Place place) const;
+};
+
+// All metrics but the families, in the order in which tables show them.
+const std::vector<Metric>& MetricCatalogue();
+
+// Metrics that exist once for each joint, each timed step or each energy term. Key and label hold
+// the parameter in braces: "step_ms_median[{step}]" has the member "step_ms_median[7 classify]".
+const std::vector<Metric>& MetricFamilies();
+inline constexpr const char* kJointErrorOfJoint = "joint_error_mean_m[{joint}]";
+inline constexpr const char* kStepMedian = "step_ms_median[{step}]";
+inline constexpr const char* kStepP95 = "step_ms_p95[{step}]";
+inline constexpr const char* kStepMax = "step_ms_max[{step}]";
+inline constexpr const char* kEnergyOfTerm = "energy_{term}";
+
+// The median time of a frame as a multiple of the calibration kernel's (core/calibration.h), taken
+// in the same process: compares across machines. Computed from a record, not stored.
+inline constexpr const char* kCalibratedTime = "frame_median_per_calibration";
+
+// The metric of a key, or the member of a family with key and label filled in. ConfigError with the
+// nearest known key if there is none.
+Metric FindMetric(const std::string& key);
+// "" if the catalogue has the key, else what FindMetric would say.
+std::string UnknownMetricProblem(const std::string& key);
+
+// In the order of the catalogue.
+std::vector<Metric> MetricsShownIn(Place place);
+
+}  // namespace vitruvia

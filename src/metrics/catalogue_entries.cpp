@@ -1,0 +1,555 @@
+// The entries of the metric catalogue (catalogue.h), by what they measure.
+#include "metrics/catalogue.h"
+
+namespace vitruvia {
+namespace {
+
+using enum Place;
+
+// Which run it is.
+std::vector<Metric> IdentityColumns() {
+  return {
+      {.key = "run_id",
+       .label = "run",
+       .shown_in = {kSummaryTable},
+       .definition = "Name of the run: variant, scene, method, seed and a hash of its resolved "
+                     "configuration."},
+      {.key = "variant",
+       .label = "variant",
+       .shown_in = {kSummaryTable},
+       .definition = "Name of the overrides that the run was made with."},
+      {.key = "scene",
+       .label = "scene",
+       .shown_in = {kSummaryTable},
+       .definition = "Name of the scene, recording or person that was tracked, scanned or fitted."},
+      {.key = "method",
+       .label = "method",
+       .shown_in = {kSummaryTable},
+       .definition = "Name of the method that was run."},
+      {.key = "seed",
+       .label = "seed",
+       .shown_in = {kSummaryTable},
+       .definition = "Seed of the scene's random numbers."},
+      {.key = "repeat",
+       .label = "repeat",
+       .definition =
+           "Number of the repetition, from 1, of a run that is carried out several times."},
+      {.key = "case",
+       .label = "case",
+       .definition = "Name of the variant, as stored by the score."},
+      {.key = "not_scored",
+       .label = "not scored",
+       .definition = "What could not be measured because the sequence has no truth for it."},
+  };
+}
+
+// Frames, and how many of them failed.
+std::vector<Metric> FrameCounts() {
+  return {
+      {.key = "frames",
+       .label = "frames",
+       .shown_in = {kSummaryTable, kIndexPage},
+       .definition = "Number of tracked frames."},
+      {.key = "frames_failed",
+       .label = "failed frames",
+       .better = Better::kLower,
+       .shown_in = {kSummaryTable, kVariantTable, kComparison, kTerminal, kIndexPage, kGate},
+       .definition = "Number of frames for which the tracker reported a failure."},
+      {.key = "failed",
+       .label = "failed",
+       .better = Better::kLower,
+       .definition = "Per frame: 1 if the tracker reported a failure, else 0."},
+      {.key = "frames_lost",
+       .label = "lost frames",
+       .decimals = 1,
+       .better = Better::kLower,
+       .shown_in = {kComparison, kGate},
+       .definition = "Number of frames in which the tracker reported a failure or the mean L2 "
+                     "error of the visible surface is above 5 cm."},
+      {.key = "frames_to_recover",
+       .label = "frames to recover",
+       .definition = "Length of the longest stretch of lost frames; -1 if the subject was still "
+                     "lost in the last frame."},
+      {.key = "non_finite",
+       .label = "values that are not finite",
+       .better = Better::kLower,
+       .shown_in = {kGate},
+       .definition = "Number of stored values per frame that are NaN or infinite, without joint "
+                     "errors of frames whose true joints are unknown."},
+  };
+}
+
+// Distance of corresponding surface points.
+std::vector<Metric> CorrespondingPointErrors() {
+  return {
+      {.key = "l2_mean_m",
+       .label = "mean L2 error",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .shown_in = {kSummaryTable, kGate, kPictureNote, kHistoryPlot},
+       .definition = "Distance between corresponding points of the estimated and the true surface: "
+                     "the mean over the vertices. In a summary row it is the mean over all frames, "
+                     "failed ones included."},
+      {.key = "l2_max_m",
+       .label = "maximum L2 error",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 1,
+       .better = Better::kLower,
+       .shown_in = {kGate},
+       .definition =
+           "Distance between corresponding points of the estimated and the true surface: the "
+           "maximum over the vertices. In a summary row it is the maximum over all frames."},
+      {.key = "l2_mean_of_diagonal",
+       .label = "mean L2 error / diagonal",
+       .decimals = 5,
+       .better = Better::kLower,
+       .shown_in = {kSummaryTable, kVariantTable, kComparison, kTerminal, kIndexPage, kSpeedPlot},
+       .definition = "l2_mean_m divided by diagonal_m, as paper A prints it in figure 11."},
+      {.key = "l2_max_of_diagonal",
+       .label = "maximum L2 error / diagonal",
+       .decimals = 5,
+       .better = Better::kLower,
+       .shown_in = {kSummaryTable, kVariantTable, kComparison, kTerminal, kIndexPage},
+       .definition = "l2_max_m divided by diagonal_m, as paper A prints it in figure 11."},
+      {.key = "l2_mean_visible_m",
+       .label = "mean L2 error, visible surface",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .shown_in = {kGate},
+       .definition = "l2_mean_m over the vertices whose true place the camera sees."},
+      {.key = "l2_max_visible_m",
+       .label = "maximum L2 error, visible surface",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 1,
+       .better = Better::kLower,
+       .definition = "l2_max_m over the vertices whose true place the camera sees."},
+      {.key = "l2_mean_hidden_m",
+       .label = "mean L2 error, hidden surface",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .shown_in = {kGate},
+       .definition = "l2_mean_m over the vertices whose true place the camera does not see."},
+      {.key = "l2_max_hidden_m",
+       .label = "maximum L2 error, hidden surface",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 1,
+       .better = Better::kLower,
+       .definition = "l2_max_m over the vertices whose true place the camera does not see."},
+      {.key = "l2_median_m",
+       .label = "median L2 error",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition =
+           "Per frame: the median over the vertices of the distance between corresponding points."},
+      {.key = "l2_p95_m",
+       .label = "L2 error, 95th percentile",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "Per frame: the 95th percentile over the vertices of the distance between "
+                     "corresponding points."},
+      {.key = "l2_p99_m",
+       .label = "L2 error, 99th percentile",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "Per frame: the 99th percentile over the vertices of the distance between "
+                     "corresponding points."},
+      {.key = "diagonal_m",
+       .label = "diagonal of the bounding box",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 1,
+       .definition = "Length of the diagonal of the true subject's rest-pose bounding box."},
+  };
+}
+
+// Distance to the nearest surface point.
+std::vector<Metric> NearestPointErrors() {
+  return {
+      {.key = "surface_mean_m",
+       .label = "mean surface error",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .shown_in = {kVariantTable, kComparison, kTerminal, kIndexPage, kGate, kHistoryPlot},
+       .definition = "Study of body shapes: the mean distance between the fitted and the true "
+                     "surface, from the vertices of each to the nearest point of the other, both "
+                     "in the T-pose and rigidly aligned. Study of skinning weights: the mean "
+                     "distance of a skinned vertex from its example, over all poses."},
+      {.key = "surface_p95_m",
+       .label = "surface error, 95th percentile",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .shown_in = {kGate},
+       .definition = "The 95th percentile of the distances whose mean is surface_mean_m."},
+      {.key = "surface_max_m",
+       .label = "maximum surface error",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .shown_in = {kVariantTable, kComparison, kTerminal, kIndexPage, kGate},
+       .definition = "The maximum of the distances whose mean is surface_mean_m."},
+      {.key = "surface_rmse_m",
+       .label = "RMS surface error",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .shown_in = {kGate},
+       .definition =
+           "Root mean square distance of a skinned vertex from its example, over all poses."},
+      {.key = "surface_visible_mean_m",
+       .label = "mean distance to the true surface, visible part",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "Mean distance of the estimate's visible vertices to the nearest point of the "
+                     "true surface, over every n-th frame (setting reconstruction_every)."},
+      {.key = "surface_visible_p95_m",
+       .label = "distance to the true surface, visible part, 95th percentile",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "The 95th percentile of the distances whose mean is surface_visible_mean_m."},
+      {.key = "reconstruction_mean_m",
+       .label = "mean reconstruction error",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "Mean distance of the estimate's visible vertices to the nearest observed "
+                     "point, over every n-th frame (setting reconstruction_every), as paper B "
+                     "measures it for its figure 6."},
+      {.key = "reconstruction_p95_m",
+       .label = "reconstruction error, 95th percentile",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "The 95th percentile of the distances whose mean is reconstruction_mean_m."},
+      {.key = "vertex_mean_m",
+       .label = "mean vertex error",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .shown_in = {kGate},
+       .definition = "Mean distance between corresponding vertices of the fitted and the true "
+                     "body, both in the T-pose and rigidly aligned."},
+  };
+}
+
+// Joints.
+std::vector<Metric> JointErrorMetrics() {
+  return {
+      {.key = "joint_error_mean_m",
+       .label = "mean joint error",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .shown_in = {kSummaryTable, kVariantTable, kComparison, kGate, kSpeedPlot, kHistoryPlot},
+       .definition =
+           "Mean distance between estimated and true joints, over all joints and frames whose "
+           "truth is known. In a series per frame it is the mean over the joints of that frame."},
+      {.key = "joint_error_mean_visible_m",
+       .label = "mean joint error, visible joints",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "joint_error_mean_m over the joints that the camera sees."},
+      {.key = "joint_error_mean_hidden_m",
+       .label = "mean joint error, hidden joints",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "joint_error_mean_m over the joints that the camera does not see."},
+      {.key = "joint_error_max_m",
+       .label = "maximum joint error",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .shown_in = {kGate},
+       .definition = "Maximum distance between an estimated and a true joint. In a series per "
+                     "frame it is the maximum over the joints of that frame."},
+      {.key = "joints_within_10cm",
+       .label = "joints within 10 cm",
+       .unit = "%",
+       .scale = 1e2,
+       .decimals = 2,
+       .better = Better::kHigher,
+       .shown_in = {kSummaryTable, kVariantTable, kComparison, kTerminal, kIndexPage, kGate},
+       .definition = "Share of the joints, over all frames, whose estimate lies within 10 cm of "
+                     "the truth (paper A, section 7.1)."},
+      {.key = "joints_within_10cm_less_offset",
+       .label = "joints within 10 cm, less each joint's mean offset",
+       .unit = "%",
+       .scale = 1e2,
+       .decimals = 2,
+       .better = Better::kHigher,
+       .definition =
+           "joints_within_10cm after the mean offset of each joint over the frames is subtracted, "
+           "for recordings that define their joints differently (paper B on EVAL)."},
+      {.key = "joint_auc_30cm",
+       .label = "joint accuracy, area under the curve to 30 cm",
+       .decimals = 4,
+       .better = Better::kHigher,
+       .definition =
+           "Share of joints within a threshold, averaged over the thresholds from 0 to 30 cm."},
+  };
+}
+
+// How the limbs move.
+std::vector<Metric> MotionErrors() {
+  return {
+      {.key = "twist_rms_deg",
+       .label = "twist error, RMS",
+       .unit = "°",
+       .decimals = 2,
+       .better = Better::kLower,
+       .shown_in = {kComparison, kGate, kPictureNote},
+       .definition = "Root mean square over frames and limbs of the rotation of the estimate "
+                     "against the truth about the limb's own axis."},
+      {.key = "jitter_rms_rad_s2",
+       .label = "jitter, RMS",
+       .unit = "rad/s²",
+       .decimals = 2,
+       .better = Better::kLower,
+       .shown_in = {kComparison, kGate, kPictureNote},
+       .definition = "Root mean square over bones and frames of the difference between the "
+                     "estimated and the true angular acceleration."},
+  };
+}
+
+// Fitted bodies and scans.
+std::vector<Metric> BodyErrors() {
+  return {
+      {.key = "height_error_m",
+       .label = "height error",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .shown_in = {kComparison, kTerminal, kGate},
+       .definition = "Absolute difference between the fitted and the true body height."},
+      {.key = "weight_error_kg",
+       .label = "weight error",
+       .unit = "kg",
+       .decimals = 4,
+       .better = Better::kLower,
+       .shown_in = {kComparison, kTerminal, kGate},
+       .definition = "Absolute difference between the fitted and the true body weight."},
+      {.key = "scan_to_truth_mean_m",
+       .label = "mean distance from scan to truth",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .shown_in = {kGate},
+       .definition =
+           "Mean distance of the scan's vertices to the nearest point of the true surface."},
+      {.key = "scan_to_truth_max_m",
+       .label = "maximum distance from scan to truth",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition =
+           "Maximum distance of the scan's vertices to the nearest point of the true surface."},
+      {.key = "camera_error_max_m",
+       .label = "maximum camera error",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .shown_in = {kGate},
+       .definition = "Maximum distance over the scan's frames between the estimated and the true "
+                     "camera centre."},
+      {.key = "poses", .label = "poses", .definition = "Number of example poses."},
+  };
+}
+
+// Time, effort and memory.
+std::vector<Metric> Costs() {
+  return {
+      {.key = "frame_ms",
+       .label = "time per frame",
+       .unit = "ms",
+       .decimals = 1,
+       .better = Better::kLower,
+       .definition = "Per frame: wall-clock time of the tracker's step, without reading, writing "
+                     "or scoring."},
+      {.key = "frame_ms_median",
+       .label = "time per frame, median",
+       .unit = "ms",
+       .decimals = 1,
+       .better = Better::kLower,
+       .shown_in = {kSummaryTable, kVariantTable, kComparison, kTerminal, kIndexPage},
+       .definition = "Median over the frames of frame_ms."},
+      {.key = "frame_ms_p95",
+       .label = "time per frame, 95th percentile",
+       .unit = "ms",
+       .decimals = 1,
+       .better = Better::kLower,
+       .shown_in = {kSummaryTable, kComparison, kIndexPage},
+       .definition = "95th percentile over the frames of frame_ms."},
+      {.key = "frame_ms_max",
+       .label = "time per frame, maximum",
+       .unit = "ms",
+       .decimals = 1,
+       .better = Better::kLower,
+       .definition = "Maximum over the frames of frame_ms."},
+      {.key = kCalibratedTime,
+       .label = "time per frame, median / calibration kernel",
+       .decimals = 3,
+       .better = Better::kLower,
+       .shown_in = {kComparison},
+       .definition = "frame_ms_median as a multiple of the time of the calibration kernel in the "
+                     "same process. It compares across machines."},
+      {.key = "iterations_mean",
+       .label = "iterations per frame, mean",
+       .decimals = 2,
+       .shown_in = {kSummaryTable},
+       .definition = "Mean number of iterations that the method took for a frame."},
+      {.key = "iterations",
+       .label = "iterations",
+       .definition = "Number of iterations of a frame, or of the fit of a body."},
+      {.key = "tracker_memory_mb",
+       .label = "the tracker's memory, at most",
+       .unit = "MB",
+       .better = Better::kLower,
+       .definition = "Largest resident memory of the tracker's process."},
+      {.key = "fit_ms",
+       .label = "time of the fit",
+       .unit = "ms",
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "Wall-clock time of fitting a body to a scan."},
+      {.key = "scan_s",
+       .label = "time of the scan",
+       .unit = "s",
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "Wall-clock time of fusing the frames of a scan and extracting its surface."},
+  };
+}
+
+// What the solver reports.
+std::vector<Metric> SolverDiagnostics() {
+  return {
+      {.key = "condition",
+       .label = "condition number",
+       .definition = "Per frame: estimated condition number of the normal equations; -1 where it "
+                     "was not estimated."},
+      {.key = "condition_max",
+       .label = "condition number, maximum",
+       .definition = "Maximum over the frames of condition."},
+      {.key = "rotation_drift",
+       .label = "rotation drift",
+       .decimals = 4,
+       .better = Better::kLower,
+       .definition = "Per frame: the largest ‖RᵀR − I‖ of any bone's rotation R."},
+      {.key = "rotation_drift_max",
+       .label = "rotation drift, maximum",
+       .decimals = 4,
+       .better = Better::kLower,
+       .definition = "Maximum over the frames of rotation_drift."},
+      {.key = "energy_mean",
+       .label = "energy, mean",
+       .decimals = 4,
+       .definition = "Sum of all energy terms, averaged over the frames. Only runs of one method "
+                     "with the same weights compare."},
+      {.key = "energy_rise",
+       .label = "rise of the energy",
+       .decimals = 4,
+       .better = Better::kLower,
+       .definition = "Per frame: the largest rise of the energy in any step, as a share; -1 where "
+                     "steps were not watched."},
+      {.key = "energy_rises",
+       .label = "frames whose energy rose",
+       .better = Better::kLower,
+       .definition = "Number of frames with a step that raised the energy."},
+      {.key = "energy_rise_max",
+       .label = "rise of the energy, maximum",
+       .decimals = 4,
+       .better = Better::kLower,
+       .definition = "Maximum over the frames of energy_rise."},
+  };
+}
+
+}  // namespace
+
+const std::vector<Metric>& MetricCatalogue() {
+  static const std::vector<Metric> catalogue = [] {
+    std::vector<Metric> all;
+    for (const auto& entries :
+         {IdentityColumns(), FrameCounts(), CorrespondingPointErrors(), NearestPointErrors(),
+          JointErrorMetrics(), MotionErrors(), BodyErrors(), Costs(), SolverDiagnostics()})
+      all.insert(all.end(), entries.begin(), entries.end());
+    return all;
+  }();
+  return catalogue;
+}
+
+const std::vector<Metric>& MetricFamilies() {
+  static const std::vector<Metric> families = {
+      {.key = kJointErrorOfJoint,
+       .label = "mean error of joint {joint}",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "joint_error_mean_m of one joint."},
+      {.key = kStepMedian,
+       .label = "time of step {step} per frame, median",
+       .unit = "ms",
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "Median over the frames of the time of one step of the method, summed over "
+                     "the frame's iterations."},
+      {.key = kStepP95,
+       .label = "time of step {step} per frame, 95th percentile",
+       .unit = "ms",
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "95th percentile over the frames of the time of one step of the method, "
+                     "summed over the frame's iterations."},
+      {.key = kStepMax,
+       .label = "time of step {step} per frame, maximum",
+       .unit = "ms",
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "Maximum over the frames of the time of one step of the method, summed over "
+                     "the frame's iterations."},
+      {.key = kEnergyOfTerm,
+       .label = "energy of term {term}",
+       .decimals = 4,
+       .definition = "Per frame: the value of one energy term at the end of the frame."},
+  };
+  return families;
+}
+
+}  // namespace vitruvia
