@@ -106,6 +106,9 @@ FrameEstimate ParseFrame(const JsonNode& node) {
   }
   if (node.json().contains("energy_rise")) frame.energy_rise = node.At("energy_rise").Number();
   frame.joints = node.At("joints").List(ParsePoint);
+  for (double* number : {&frame.condition, &frame.energy_rise}) {
+    if (*number < 0.0) *number = kNoValue;  // not computed
+  }
   return frame;
 }
 

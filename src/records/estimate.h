@@ -8,6 +8,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,8 +24,9 @@ struct FrameEstimate {
   int iterations = 0;
   double frame_ms = 0.0;  // wall clock round TrackFrame only
   std::vector<NamedValue> step_ms, energies;
-  double condition = -1.0;
-  double energy_rise = -1.0;    // see TrackResult
+  // See TrackResult; NaN where the method computes none.
+  double condition = std::numeric_limits<double>::quiet_NaN();
+  double energy_rise = std::numeric_limits<double>::quiet_NaN();
   double rotation_drift = 0.0;  // largest ‖RᵀR − I‖ of any bone; 0 for methods without bones
   std::vector<Vector3<double>> joints;
 };
