@@ -1,5 +1,6 @@
 #include "experiments/cli/explain.h"
 
+#include "config/did_you_mean.h"
 #include "core/error.h"
 #include "experiments/cli/config_kinds.h"
 
@@ -9,7 +10,8 @@ namespace {
 std::vector<FieldDescription> AllSettings() {
   std::vector<FieldDescription> all;
   for (const ConfigKind& kind : ConfigKinds()) {
-    const std::vector<FieldDescription> more = DescribeSettings(kind.name, kind.visit);
+    const std::vector<FieldDescription> more =
+        DescribeSettings(kind.name, kind.visit, kind.file_kind);
     all.insert(all.end(), more.begin(), more.end());
   }
   return all;
@@ -53,10 +55,7 @@ std::string Explain(const std::string& key) {
     names.push_back(field.key.substr(field.key.rfind('.') + 1));
   }
   if (text.empty()) {
-    const std::string nearest = NearestWord(key, names);
-    throw ConfigError(
-        fmt::format("explain: no setting \"{}\"{}", key,
-                    nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
+    throw ConfigError(fmt::format("explain: no setting \"{}\"{}", key, DidYouMean(key, names)));
   }
   return text;
 }

@@ -16,7 +16,7 @@ namespace {
 
 // Metrics only: who computed them is no result.
 nlohmann::json ResultsOf(const RunRecord& record) {
-  nlohmann::json json = record;
+  nlohmann::json json = StoredJson(record);
   json.erase("provenance");
   return json;
 }

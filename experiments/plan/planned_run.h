@@ -21,14 +21,14 @@ struct WorkFolders {
 
 struct PlannedRun {
   std::string run_id;
-  std::string key;  // WorkKey() of all that its result depends on
+  std::string key;  // CacheKey() of all that its result depends on
   // Does the work; writes what it likes into its own folder.
   std::function<RunRecord(const std::filesystem::path& run_folder)> carry_out;
 
   std::string variant, scene, method;  // as its record will say; "" if it has none
   int frames = 0;                      // 0: it has none
   bool timed = false;                  // nothing else may run beside it on its machine
-  std::optional<KeptFolder> shares;    // work that the first of several runs does for all
+  std::optional<CachedFolder> shares;  // work that the first of several runs does for all
 };
 
 struct Experiment {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "config/json_node.h"
+#include "config/stored_data.h"
 #include "core/error.h"
 #include "core/files.h"
 
@@ -13,6 +13,27 @@ namespace {
 constexpr const char* kStatusFile = "status";
 constexpr const char* kLockFile = "lock";
 constexpr const char* kPlanFile = "plan.json";
+
+struct PlannedKey {
+  std::string run_id, key;
+
+  void Describe(Fields& f) {
+    f.Text("run_id", run_id, {.meaning = "identity of the run"});
+    f.Text("key", key, {.meaning = "hash of everything that the run's result depends on"});
+  }
+};
+
+struct PlanFile {
+  static constexpr StoredFormat kFormat{"vitruvia-plan", 1, 0, "run the experiment again"};
+
+  std::string build_id;
+  std::vector<PlannedKey> runs;
+
+  void Describe(Fields& f) {
+    f.Text("build_id", build_id, {.meaning = "linked identity of the program that planned"});
+    f.List("runs", runs, {.meaning = "the runs, in the order of the grid"});
+  }
+};
 
 std::string DoneText(const std::string& key) { return fmt::format("done {}\n", key); }
 std::string FailedHead(const std::string& key) { return fmt::format("failed {}\n", key); }
@@ -74,19 +95,16 @@ std::optional<FileLock> ClaimRun(const fs::path& run_folder) {
 }
 
 void WritePlannedKeys(const fs::path& experiment_folder, const PlannedKeys& plan) {
-  nlohmann::json runs = nlohmann::json::array();
-  for (const auto& [run_id, key] : plan.keys) runs.push_back({{"run_id", run_id}, {"key", key}});
-  WriteWholeFile(experiment_folder / kPlanFile,
-                 nlohmann::json{{"build_id", plan.build_id}, {"runs", runs}}.dump(1) + "\n");
+  PlanFile file{plan.build_id, {}};
+  for (const auto& [run_id, key] : plan.keys) file.runs.push_back({run_id, key});
+  WriteStored(experiment_folder / kPlanFile, file);
 }
 
 PlannedKeys ReadPlannedKeys(const fs::path& experiment_folder) {
-  const fs::path file = experiment_folder / kPlanFile;
-  const nlohmann::json json = ReadStoredJson(file);
-  const JsonNode node(json, file.string());
-  return {node.At("build_id").Text(), node.At("runs").List([](const JsonNode& run) {
-            return std::pair(run.At("run_id").Text(), run.At("key").Text());
-          })};
+  const auto file = ReadStored<PlanFile>(experiment_folder / kPlanFile);
+  PlannedKeys plan{file.build_id, {}};
+  for (const PlannedKey& run : file.runs) plan.keys.emplace_back(run.run_id, run.key);
+  return plan;
 }
 
 }  // namespace vitruvia

@@ -28,7 +28,7 @@ struct RunStatus {
   std::string reason;  // of a failure
 };
 
-// `key`: what the run's result depends on (WorkKey, kept_work.h).
+// `key`: what the run's result depends on (CacheKey, build_cache.h).
 RunStatus StatusOf(const std::filesystem::path& run_folder, const std::string& key);
 
 void MarkDone(const std::filesystem::path& run_folder, const std::string& key);

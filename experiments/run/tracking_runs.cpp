@@ -17,14 +17,14 @@ namespace {
 
 // The sequence of a scene, made unless the very same one is there already (same settings, same
 // input files, same build).
-KeptFolder SequenceOf(const RunPlan& run, const WorkFolders& work) {
+CachedFolder SequenceOf(const RunPlan& run, const WorkFolders& work) {
   return {work.sequences, run.scene, WriteSettings(run.scene_settings)};
 }
 
 fs::path ObtainSequence(const RunPlan& run, const WorkFolders& work) {
   if (!run.sequence.empty()) return run.sequence;
-  const KeptFolder kept = SequenceOf(run, work);
-  kept.Obtain([&run](const fs::path& made) { SynthesizeSequence(run.scene_settings, made); });
+  const CachedFolder kept = SequenceOf(run, work);
+  kept.GetOrBuild([&run](const fs::path& made) { SynthesizeSequence(run.scene_settings, made); });
   return kept.path();
 }
 
@@ -106,7 +106,7 @@ std::vector<PlannedRun> TrackingRuns(const ExperimentPlan& plan, const fs::path&
   for (const RunPlan& run : plan.runs) {
     PlannedRun planned;
     planned.run_id = run.run_id;
-    planned.key = WorkKey(run.resolved);
+    planned.key = CacheKey(run.resolved);
     planned.carry_out = [&run, name = plan.record.name, folder, work](const fs::path& run_folder) {
       RunRecord record = CarryOut(run, name, folder, work);
       WriteWholeFile(run_folder / "log", LogOf(run_folder / "estimate"));

@@ -198,7 +198,7 @@ Experiment PlanShapeStudy(const fs::path& file, const WorkFolders& work) {
       experiment.record.run_ids.push_back(run_id);
       PlannedRun run;
       run.run_id = run_id;
-      run.key = WorkKey(Resolved(*study, scan));
+      run.key = CacheKey(Resolved(*study, scan));
       run.carry_out = [study, scan, person, run_id,
                        name = experiment.record.name](const fs::path& folder) {
         return CarryOut(*study, scan, person, name, run_id, folder);

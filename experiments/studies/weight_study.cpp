@@ -136,7 +136,7 @@ Experiment PlanWeightStudy(const fs::path& file, const WorkFolders& work) {
     experiment.record.run_ids.push_back(run_id);
     PlannedRun run;
     run.run_id = run_id;
-    run.key = WorkKey({{"learning", resolved}, {"pictures", study->settings.picture_poses}});
+    run.key = CacheKey({{"learning", resolved}, {"pictures", study->settings.picture_poses}});
     run.carry_out = [study, person, run_id, name = experiment.record.name](const fs::path& folder) {
       return CarryOut(*study, person, name, run_id, folder);
     };

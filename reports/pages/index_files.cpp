@@ -6,6 +6,7 @@
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
 
+#include "analysis/gate_reports.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "reports/figures/history_figure.h"
@@ -98,13 +99,11 @@ IndexedExperiment ReadIndexed(const fs::path& folder, const fs::path& top) {
 }
 
 IndexedGate ReadGate(const fs::path& folder, const fs::path& top, DrawingWriter& writer) {
-  const fs::path file = folder / "regression.json";
-  const nlohmann::json json = ReadStoredJson(file);
-  const JsonNode node(json, file.string());
-  IndexedGate gate{node.At("name").Text(),
-                   node.At("verdict").Text(),
-                   node.At("date").Text(),
-                   node.At("commit").Text(),
+  const auto file = ReadStored<RegressionFile>(folder / "regression.json");
+  IndexedGate gate{file.name,
+                   file.verdict,
+                   file.date,
+                   file.commit,
                    (folder / "regression.md").lexically_relative(top).generic_string(),
                    {}};
   for (const Figure& figure : MakeHistoryFigures(ReadHistory(folder / "history.json"))) {

@@ -6,8 +6,7 @@
 #include <map>
 #include <set>
 
-#include "config/json_node.h"
-#include "config/json_settings.h"
+#include "config/did_you_mean.h"
 #include "core/error.h"
 #include "records/metric_value.h"
 
@@ -82,10 +81,8 @@ std::vector<std::string> MetricsToCompare(const std::vector<RunPair>& pairs,
     for (const RunPair& pair : pairs) {
       for (const auto& item : pair.other->summary.items()) known.push_back(item.key());
     }
-    const std::string nearest = NearestWord(key, known);
     throw ConfigError(
-        fmt::format("metric \"{}\": no pair of runs has it{}", key,
-                    nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
+        fmt::format("metric \"{}\": no pair of runs has it{}", key, DidYouMean(key, known)));
   }
   return asked;
 }

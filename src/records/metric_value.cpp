@@ -1,14 +1,12 @@
 #include "records/metric_value.h"
 
-#include "config/json_node.h"
-
 namespace vitruvia {
 namespace {
 
 double MemberNumber(const nlohmann::json& object, const std::string& key) {
-  if (!object.is_object()) return kNoValue;
+  if (!object.is_object()) return kAbsent;
   const auto found = object.find(key);
-  return found != object.end() && found->is_number() ? found->get<double>() : kNoValue;
+  return found != object.end() && found->is_number() ? found->get<double>() : kAbsent;
 }
 
 }  // namespace

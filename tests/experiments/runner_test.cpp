@@ -186,11 +186,11 @@ TEST_F(Runner, TwoCallersShareTheWork) {
 
 TEST_F(Runner, SharedWorkIsDoneOnceByTheFirstAndAwaitedByTheOthers) {
   Experiment experiment = Runs(4);
-  const KeptFolder shared(diary_folder_ / "shared", "work", {{"of", "all"}});
+  const CachedFolder shared(diary_folder_ / "shared", "work", {{"of", "all"}});
   for (PlannedRun& run : experiment.runs) {
     run.shares = shared;
     run.carry_out = [this, shared, work = run.carry_out](const fs::path& run_folder) {
-      shared.Obtain([this](const fs::path& folder) {
+      shared.GetOrBuild([this](const fs::path& folder) {
         SleepShortly();
         MakeFolder(folder);
         std::ofstream(diary_, std::ios::app) << "shared\n";
