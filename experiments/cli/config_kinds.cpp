@@ -1,6 +1,8 @@
 #include "experiments/cli/config_kinds.h"
 
-#include "config/settings_schema.h"
+#include "analysis/gate_reports.h"
+#include "config/did_you_mean.h"
+#include "config/stored_data.h"
 #include "core/error.h"
 #include "experiments/cli/regress_config.h"
 #include "experiments/plan/run_plan.h"
@@ -8,11 +10,22 @@
 #include "experiments/studies/weight_study.h"
 #include "importers/eval_import.h"
 #include "importers/mesh_import.h"
+#include "records/estimate.h"
 #include "subjects/fitted_subject.h"
 #include "subjects/scan.h"
 #include "synth/motions/keyframes_file.h"
 
 namespace vitruvia {
+namespace {
+
+// A kind of file that the program writes and reads again (docs/stored_data.md).
+template <class Struct>
+ConfigKind StoredKind(const std::string& name, const std::string& meaning) {
+  return {name, meaning, VisitDefaults<Struct>, StoredSchema<Struct>, FileKind::kStoredData};
+}
+
+}  // namespace
+
 const std::vector<ConfigKind>& ConfigKinds() {
   static const std::vector<ConfigKind> kinds = [] {
     std::vector<ConfigKind> list = {
@@ -34,7 +47,13 @@ const std::vector<ConfigKind>& ConfigKinds() {
          nullptr},
         {"import_eval", "Stanford EVAL files made into a sequence",
          VisitDefaults<EvalImportSettings>, nullptr},
-        {"motion", "key frames of a motion", VisitMotionFile, nullptr}};
+        {"motion", "key frames of a motion", VisitMotionFile, nullptr},
+        StoredKind<RunRecord>("record", "record.json: all that reports show of a run"),
+        StoredKind<EstimateFile>("estimate", "estimate.json: what a tracker said of each frame"),
+        StoredKind<ExperimentSummary>("summary", "summary.json: an experiment's numbers"),
+        StoredKind<ExperimentRecord>("experiment_record", "experiment.json in an output folder"),
+        StoredKind<GateBaseline>("baseline", "baseline of the regression gate"),
+        StoredKind<RegressionFile>("regression_report", "regression.json: the gate's findings")};
     for (const MethodInfo& method : Methods()) {
       list.push_back(
           {method.name, "settings of the method " + method.name, method.visit_settings, nullptr});
@@ -50,11 +69,8 @@ const ConfigKind& FindConfigKind(const std::string& name) {
     if (kind.name == name) return kind;
     names.push_back(kind.name);
   }
-  const std::string nearest = NearestWord(name, names);
-  throw ConfigError(
-      fmt::format("schema: no kind of config \"{}\"; {}there are: {}", name,
-                  nearest.empty() ? "" : fmt::format("did you mean \"{}\"? ", nearest),
-                  fmt::join(names, ", ")));
+  throw ConfigError(fmt::format("schema: no kind of file \"{}\";{} there are: {}", name,
+                                DidYouMean(name, names, " "), fmt::join(names, ", ")));
 }
 
 Json SchemaOf(const ConfigKind& kind) {

@@ -1,4 +1,5 @@
-// All kinds of config files: what `vitruvia explain` explains and `vitruvia schema` publishes.
+// All kinds of config files and of stored data: what `vitruvia explain` explains and `vitruvia
+// schema` publishes.
 #pragma once
 
 #include <string>
@@ -13,6 +14,7 @@ struct ConfigKind {
   std::string meaning;  // one line
   void (*visit)(Fields&);
   Json (*schema)();  // null: that of `visit`
+  FileKind file_kind = FileKind::kSettings;
 };
 const std::vector<ConfigKind>& ConfigKinds();
 

@@ -1,6 +1,7 @@
 #include "experiments/cli/explain.h"
 
 #include "analysis/printed_metric.h"
+#include "config/did_you_mean.h"
 #include "core/error.h"
 #include "experiments/cli/config_kinds.h"
 
@@ -10,7 +11,8 @@ namespace {
 std::vector<FieldDescription> AllSettings() {
   std::vector<FieldDescription> all;
   for (const ConfigKind& kind : ConfigKinds()) {
-    const std::vector<FieldDescription> more = DescribeSettings(kind.name, kind.visit);
+    const std::vector<FieldDescription> more =
+        DescribeSettings(kind.name, kind.visit, kind.file_kind);
     all.insert(all.end(), more.begin(), more.end());
   }
   return all;
@@ -65,10 +67,8 @@ std::string Explain(const std::string& key) {
   }
   if (!key.empty() && UnknownMetricProblem(key).empty()) text += Explanation(FindMetric(key));
   if (text.empty()) {
-    const std::string nearest = NearestWord(key, names);
     throw ConfigError(
-        fmt::format("explain: no setting or metric \"{}\"{}", key,
-                    nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
+        fmt::format("explain: no setting or metric \"{}\"{}", key, DidYouMean(key, names)));
   }
   return text;
 }

@@ -93,7 +93,7 @@ GateBaseline SelectedBaseline(const GatePlaces& places, const std::string& only)
 
 void WriteOccasion(const GatePlaces& places, const GateOccasion& occasion,
                    const Judgement& judgement) {
-  WriteWholeFile(places.output / "regression.json", ToJson(occasion, judgement).dump(2) + "\n");
+  WriteStored(places.output / "regression.json", MakeRegressionFile(occasion, judgement), 2);
   WriteWholeFile(places.output / "regression.xml", ToJunit(occasion, judgement));
   const std::string text = ToMarkdown(occasion, judgement);
   WriteWholeFile(places.output / "regression.md", text);

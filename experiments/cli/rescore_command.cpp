@@ -21,7 +21,7 @@ struct Counts {
 
 // Without the provenance, which says who computed the metrics.
 nlohmann::json ResultsOf(const RunRecord& record) {
-  nlohmann::json json = record;
+  nlohmann::json json = StoredJson(record);
   json.erase("provenance");
   return json;
 }

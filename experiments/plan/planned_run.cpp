@@ -11,12 +11,12 @@ constexpr const char* kRunFile = "run.json";
 }  // namespace
 
 void PlannedRun::Describe(Fields& f) {
-  f.Text("experiment", experiment, {.meaning = "name of the experiment", .required = true});
-  f.Text("kind", kind, {.meaning = "kind of the experiment", .required = true});
-  f.Text("run_id", run_id, {.meaning = "name of the run and of its folder", .required = true});
-  f.Text("key", key, {.meaning = "hash of all that the result depends on", .required = true});
+  f.Text("experiment", experiment, {.meaning = "name of the experiment"});
+  f.Text("kind", kind, {.meaning = "kind of the experiment"});
+  f.Text("run_id", run_id, {.meaning = "name of the run and of its folder"});
+  f.Text("key", key, {.meaning = "hash of all that the result depends on"});
   f.FreeJson("resolved", resolved,
-             {.meaning = "settings that the result depends on", .required = true});
+             {.meaning = "settings that the result depends on"});
   f.Text("variant", variant, {.meaning = "name of the variant"});
   f.Text("scene", scene, {.meaning = "name of the scene, the sequence or the person"});
   f.Text("method", method, {.meaning = "name of the method"});
@@ -26,9 +26,9 @@ void PlannedRun::Describe(Fields& f) {
   f.Integer("frames", frames, {.meaning = "number of frames that are tracked"});
   f.Flag("timed", timed, {.meaning = "whether the run has its machine to itself"});
   f.File("sequences", work.sequences,
-         {.meaning = "folder of synthesised sequences", .required = true});
+         {.meaning = "folder of synthesised sequences"});
   f.File("learned", work.learned,
-         {.meaning = "folder of learnt models and fitted subjects", .required = true});
+         {.meaning = "folder of learnt models and fitted subjects"});
 }
 
 JsonOrigin ResolvedOrigin(const char* key) { return {"resolved settings", key}; }
@@ -37,11 +37,11 @@ void WritePlannedRun(const fs::path& run_folder, const PlannedRun& run) {
   PlannedRun stored = run;
   stored.work = {fs::absolute(run.work.sequences), fs::absolute(run.work.learned)};
   MakeFolder(run_folder);
-  WriteWholeFile(run_folder / kRunFile, WriteSettings(stored).dump(1) + "\n");
+  WriteStored(run_folder / kRunFile, stored);
 }
 
 PlannedRun ReadPlannedRun(const fs::path& run_folder) {
-  return ReadDataFile<PlannedRun>(run_folder / kRunFile);
+  return ReadStored<PlannedRun>(run_folder / kRunFile);
 }
 
 }  // namespace vitruvia

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "config/build_cache.h"
+#include "config/stored_data.h"
 #include "records/run_record.h"
 
 namespace vitruvia {
@@ -21,10 +22,12 @@ struct WorkFolders {
 // All that another process needs to carry out the run, without the experiment file: what the file
 // says may change while the experiment goes on. Stored as run.json in the run's folder.
 struct PlannedRun {
+  static constexpr StoredFormat kFormat{"vitruvia-run", 1, 1, "run the experiment again"};
+
   std::string experiment;  // its name
   std::string kind;        // of the experiment; says which function carries out the run
   std::string run_id;
-  std::string key;  // WorkKey(resolved)
+  std::string key;  // CacheKey(resolved)
   // Every setting that the result depends on; files are named as seen from the folder in which the
   // experiment was planned.
   Json resolved = Json::object();
@@ -36,7 +39,7 @@ struct PlannedRun {
   bool timed = false;  // nothing else may run beside it on its machine
   WorkFolders work;
 
-  std::optional<KeptFolder> shares;  // not stored: work that the first of several runs does for all
+  std::optional<CachedFolder> shares;  // not stored: work that the first of several runs does for all
 
   void Describe(Fields& fields);
 };

@@ -222,7 +222,7 @@ std::vector<PlannedRun> PlannedRuns(const ExperimentPlan& plan, const WorkFolder
     planned.experiment = plan.record.name;
     planned.kind = kTrackingKind;
     planned.run_id = run.run_id;
-    planned.key = WorkKey(run.resolved);
+    planned.key = CacheKey(run.resolved);
     planned.resolved = run.resolved;
     planned.variant = run.variant;
     planned.scene = run.scene;
@@ -261,7 +261,7 @@ RunPlan ReadRunPlan(const PlannedRun& planned) {
   return run;
 }
 
-KeptFolder SequenceOf(const RunPlan& run, const fs::path& cache) {
+CachedFolder SequenceOf(const RunPlan& run, const fs::path& cache) {
   return {cache, run.scene, WriteSettings(run.scene_settings)};
 }
 

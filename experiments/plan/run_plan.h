@@ -54,7 +54,7 @@ std::vector<PlannedRun> PlannedRuns(const ExperimentPlan& plan, const WorkFolder
 RunPlan ReadRunPlan(const PlannedRun& planned);
 
 // The sequence of the run's scene, made at most once below `cache`.
-KeptFolder SequenceOf(const RunPlan& run, const std::filesystem::path& cache);
+CachedFolder SequenceOf(const RunPlan& run, const std::filesystem::path& cache);
 
 // A scene file, with overrides applied.
 SceneSettings ReadScene(const std::filesystem::path& scene_file,

@@ -70,24 +70,20 @@ int WriteSummary(const fs::path& folder) {
   const FileLock lock = LockExperiment(folder);
   const RunStatuses runs = StatusOfAll(folder);
   WriteFailures(folder, runs);
-  Json rows = Json::array(), failed = Json::object(), missing = Json::array();
+  const ReportedExperiment experiment = ReadExperiment(folder);
+  ExperimentSummary summary;
+  summary.experiment = experiment.record.name;
+  summary.variants = ToJson(TabulateVariants(experiment));
   for (const auto& [run_id, status] : runs) {
     if (status.state == RunState::kFailed) {
-      failed[run_id] = status.reason;
+      summary.failed_runs[run_id] = status.reason;
     } else if (status.state != RunState::kDone) {
-      missing.push_back(run_id);
+      summary.missing_runs.push_back(run_id);
     }
   }
-  const ReportedExperiment experiment = ReadExperiment(folder);
-  for (const RunRecord* run : experiment.finished()) rows.push_back(run->summary);
-  // In this order: what sums up the rows goes before them.
-  const nlohmann::ordered_json summary = {{"experiment", experiment.record.name},
-                                          {"variants", ToJson(TabulateVariants(experiment))},
-                                          {"failed_runs", failed},
-                                          {"missing_runs", missing},
-                                          {"rows", rows}};
-  WriteWholeFile(folder / "summary.json", summary.dump(2) + "\n");
-  return static_cast<int>(missing.size());
+  for (const RunRecord* run : experiment.finished()) summary.rows.push_back(run->summary);
+  WriteExperimentSummary(folder, summary);
+  return static_cast<int>(summary.missing_runs.size());
 }
 
 }  // namespace vitruvia

@@ -86,16 +86,22 @@ std::optional<FileLock> ClaimRun(const fs::path& run_folder) {
 }
 
 void StoredPlan::Run::Describe(Fields& f) {
-  f.Text("run_id", run_id, {.meaning = "name of the run", .required = true});
-  f.Text("key", key, {.meaning = "hash of all that its result depends on", .required = true});
+  f.Text("run_id", run_id, {.meaning = "identity of the run"});
+  f.Text("key", key, {.meaning = "hash of everything that the run's result depends on"});
 }
 
 void StoredPlan::Describe(Fields& f) {
-  f.Text("build_id", build_id, {.meaning = "build of the planning program", .required = true});
+  f.Text("build_id", build_id, {.meaning = "linked identity of the program that planned"});
   f.File("experiment_file", experiment_file, {.meaning = "experiment file that was planned"});
   f.Number("failed_frames_limit", failed_frames_limit,
            {.meaning = "share of a run's frames that may fail"});
-  f.List("runs", runs, {.meaning = "runs of the grid", .required = true});
+  f.List("runs", runs, {.meaning = "the runs, in the order of the grid"});
+}
+
+void StoredPlan::Upgrade(Json& file, int /*version*/) {
+  if (!file.is_object()) return;
+  file.emplace("experiment_file", "");
+  file.emplace("failed_frames_limit", 1.0);
 }
 
 void WriteStoredPlan(const fs::path& experiment_folder, const StoredPlan& plan) {
@@ -104,11 +110,11 @@ void WriteStoredPlan(const fs::path& experiment_folder, const StoredPlan& plan) 
     stored.experiment_file = fs::absolute(plan.experiment_file)
                                  .lexically_normal()
                                  .lexically_relative(fs::absolute(experiment_folder));
-  WriteWholeFile(experiment_folder / kPlanFile, WriteSettings(stored).dump(1) + "\n");
+  WriteStored(experiment_folder / kPlanFile, stored);
 }
 
 StoredPlan ReadStoredPlan(const fs::path& experiment_folder) {
-  return ReadDataFile<StoredPlan>(experiment_folder / kPlanFile);
+  return ReadStored<StoredPlan>(experiment_folder / kPlanFile);
 }
 
 }  // namespace vitruvia

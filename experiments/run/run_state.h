@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "config/stored_data.h"
 #include "core/file_lock.h"
 #include "experiments/run/frame_failures.h"
 
@@ -32,7 +33,7 @@ struct RunStatus {
   FrameFailures failures;  // of a run that is done
 };
 
-// `key`: hash of all that the run's result depends on (WorkKey, build_cache.h).
+// `key`: hash of all that the run's result depends on (CacheKey, build_cache.h).
 RunStatus StatusOf(const std::filesystem::path& run_folder, const std::string& key);
 
 void MarkDone(const std::filesystem::path& run_folder, const std::string& key);
@@ -46,6 +47,8 @@ std::optional<FileLock> ClaimRun(const std::filesystem::path& run_folder);
 // What an experiment's folder was last planned for (plan.json), so that its state can be told
 // without the experiment file.
 struct StoredPlan {
+  static constexpr StoredFormat kFormat{"vitruvia-plan", 1, 0, "run the experiment again"};
+
   struct Run {
     std::string run_id, key;
     void Describe(Fields& fields);
@@ -56,6 +59,7 @@ struct StoredPlan {
   std::vector<Run> runs;  // in the grid's order
 
   void Describe(Fields& fields);
+  static void Upgrade(Json& file, int version);
 };
 void WriteStoredPlan(const std::filesystem::path& experiment_folder, const StoredPlan& plan);
 // DataError if there is none or it is damaged.

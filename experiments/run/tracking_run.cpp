@@ -17,8 +17,8 @@ namespace {
 
 fs::path ObtainSequence(const RunPlan& run, const WorkFolders& work) {
   if (!run.sequence.empty()) return run.sequence;
-  const KeptFolder kept = SequenceOf(run, work.sequences);
-  kept.Obtain([&run](const fs::path& made) { SynthesizeSequence(run.scene_settings, made); });
+  const CachedFolder kept = SequenceOf(run, work.sequences);
+  kept.GetOrBuild([&run](const fs::path& made) { SynthesizeSequence(run.scene_settings, made); });
   return kept.path();
 }
 

@@ -39,7 +39,7 @@ const Kind& FindKind(const std::string& name, const std::string& where) {
 }
 
 void RequireSameInputs(const PlannedRun& run) {
-  if (WorkKey(run.resolved) == run.key) return;
+  if (CacheKey(run.resolved) == run.key) return;
   throw DataError(
       "a file that the run reads, or the program itself, has changed since the experiment was "
       "planned; run the experiment again");

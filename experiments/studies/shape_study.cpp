@@ -100,7 +100,7 @@ PlannedRun Planned(const ShapeRun& settings, const std::string& variant, int per
   PlannedRun run;
   run.kind = kShapeKind;
   run.resolved = ToJson(settings);
-  run.key = WorkKey(run.resolved);
+  run.key = CacheKey(run.resolved);
   run.run_id =
       fmt::format("{}.s{:03}.{}", variant, person, SettingsHash(run.resolved).substr(0, 8));
   run.variant = variant;

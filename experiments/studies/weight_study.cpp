@@ -85,7 +85,7 @@ PlannedRun Planned(const LearningSettings& learning, int pictures, int person) {
   PlannedRun run;
   run.kind = kWeightKind;
   run.resolved = {{"learning", WriteSettings(learning)}, {"pictures", pictures}};
-  run.key = WorkKey(run.resolved);
+  run.key = CacheKey(run.resolved);
   run.run_id = fmt::format("{}.{}.{}", kHeldOut, SubjectName(person),
                            SettingsHash(run.resolved["learning"]).substr(0, 8));
   run.variant = kHeldOut;

@@ -203,7 +203,7 @@ std::string ProvenanceOf(const RunRecord& run) {
   add("seed", run.seed);
   add("sequence", run.sequence_folder.generic_string());
   add("sequence hash", run.sequence_hash);
-  add("diagonal", fmt::format("{:.4f} m", run.diagonal_m));
+  if (!std::isnan(run.diagonal_m)) add("diagonal", fmt::format("{:.4f} m", run.diagonal_m));
   for (const auto& item : run.provenance.items()) add(item.key(), item.value());
   return fmt::format(
       "<details><summary class=\"run\">{}</summary><dl>{}</dl><details><summary>resolved "

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/gate_reports.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "reports/drawing/thumbnail.h"
@@ -56,13 +57,11 @@ IndexedExperiment ReadIndexed(const fs::path& folder, const fs::path& top) {
 }
 
 IndexedGate ReadGate(const fs::path& folder, const fs::path& top, DrawingWriter& writer) {
-  const fs::path file = folder / "regression.json";
-  const nlohmann::json json = ReadStoredJson(file);
-  const JsonNode node(json, file.string());
-  return {node.At("name").Text(),
-          node.At("verdict").Text(),
-          node.At("date").Text(),
-          node.At("commit").Text(),
+  const auto file = ReadStored<RegressionFile>(folder / "regression.json");
+  return {file.name,
+          file.verdict,
+          file.date,
+          file.commit,
           (folder / "regression.md").lexically_relative(top).generic_string(),
           DrawFigures(writer, MakeHistoryFigures(ReadHistory(folder / "history.json")), folder)};
 }

@@ -9,29 +9,47 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kGateIndent = 1;
+// history.json.
+struct HistoryFile {
+  static constexpr StoredFormat kFormat{"vitruvia-history", 1, 0, "remove the file"};
 
-nlohmann::json RunsToJson(const std::vector<GatedRun>& runs) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const GatedRun& run : runs) list.push_back(ToJson(run));
-  return list;
-}
+  std::vector<HistoryEntry> entries;
 
-Renewal ParseRenewal(const JsonNode& node) {
-  return {node.At("date").Text(), node.At("commit").Text(), node.At("reason").Text()};
-}
+  void Describe(Fields& f) {
+    f.List("entries", entries, {.meaning = "what the gate measured, oldest first"});
+  }
+  // Version 0 was the list itself.
+  static void Upgrade(Json& file, int /*version*/) {
+    if (file.is_array()) file = Json{{"entries", file}};
+  }
+};
 
-HistoryEntry ParseEntry(const JsonNode& node) {
-  return {node.At("date").Text(), node.At("commit").Text(), node.At("exit_code").Integer(),
-          node.At("runs").List(ParseGatedRun)};
-}
-
-void WriteJson(const fs::path& file, const nlohmann::json& json) {
+void MakeParentFolder(const fs::path& file) {
   if (!file.parent_path().empty()) MakeFolder(file.parent_path());
-  WriteWholeFile(file, json.dump(kGateIndent) + "\n");
 }
 
 }  // namespace
+
+void Renewal::Describe(Fields& f) {
+  f.Text("date", date, {.meaning = "when the baseline was renewed"});
+  f.Text("commit", commit, {.meaning = "commit of the program that was measured"});
+  f.Text("reason", reason, {.meaning = "why the baseline was renewed"});
+}
+
+void GateBaseline::Describe(Fields& f) {
+  f.Text("date", date, {.meaning = "date of the last renewal"});
+  f.Text("commit", commit, {.meaning = "commit of the program at the last renewal"});
+  f.Text("cpu", cpu, {.meaning = "CPU of the last renewal"});
+  f.List("renewals", renewals, {.meaning = "all renewals, oldest first"});
+  f.List("runs", runs, {.meaning = "numbers that later runs are compared with"});
+}
+
+void HistoryEntry::Describe(Fields& f) {
+  f.Text("date", date, {.meaning = "when the gate measured"});
+  f.Text("commit", commit, {.meaning = "commit of the program that was measured"});
+  f.Integer("exit_code", exit_code, {.meaning = "exit code of the gate"});
+  f.List("runs", runs, {.meaning = "numbers that were measured"});
+}
 
 const GatedRun* GateBaseline::Find(const std::string& run_name) const {
   const auto found = std::find_if(runs.begin(), runs.end(),
@@ -44,38 +62,22 @@ GateBaseline ReadBaseline(const fs::path& file) {
     throw ConfigError(
         fmt::format("{}: there is no baseline; --update --reason TEXT takes one", file.string()));
   }
-  const nlohmann::json json = ReadStoredJson(file);
-  const JsonNode node(json, file.string());
-  return {node.At("date").Text(), node.At("commit").Text(), node.At("cpu").Text(),
-          node.At("renewals").List(ParseRenewal), node.At("runs").List(ParseGatedRun)};
+  return ReadStored<GateBaseline>(file);
 }
 
 void WriteBaseline(const fs::path& file, const GateBaseline& baseline) {
-  nlohmann::json renewals = nlohmann::json::array();
-  for (const Renewal& r : baseline.renewals)
-    renewals.push_back({{"date", r.date}, {"commit", r.commit}, {"reason", r.reason}});
-  WriteJson(file, {{"date", baseline.date},
-                   {"commit", baseline.commit},
-                   {"cpu", baseline.cpu},
-                   {"renewals", renewals},
-                   {"runs", RunsToJson(baseline.runs)}});
+  MakeParentFolder(file);
+  WriteStored(file, baseline);
 }
 
 std::vector<HistoryEntry> ReadHistory(const fs::path& file) {
   if (!fs::exists(file)) return {};
-  const nlohmann::json json = ReadStoredJson(file);
-  return JsonNode(json, file.string()).List(ParseEntry);
+  return ReadStored<HistoryFile>(file).entries;
 }
 
 void WriteHistory(const fs::path& file, const std::vector<HistoryEntry>& history) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const HistoryEntry& entry : history) {
-    list.push_back({{"date", entry.date},
-                    {"commit", entry.commit},
-                    {"exit_code", entry.exit_code},
-                    {"runs", RunsToJson(entry.runs)}});
-  }
-  WriteJson(file, list);
+  MakeParentFolder(file);
+  WriteStored(file, HistoryFile{history});
 }
 
 }  // namespace vitruvia

@@ -1,4 +1,5 @@
-// The gate's memory: the baseline that runs are held against, and the history of what was measured.
+// The regression gate's files: the baseline that runs are compared with, and the history of what
+// was measured.
 #pragma once
 
 #include <filesystem>
@@ -11,14 +12,20 @@ namespace vitruvia {
 
 struct Renewal {
   std::string date, commit, reason;
+
+  void Describe(Fields& fields);
 };
 
 struct GateBaseline {
+  static constexpr StoredFormat kFormat{"vitruvia-baseline", 1, 0,
+                                        "take a baseline anew: --update --reason TEXT"};
+
   std::string date, commit, cpu;  // of the last renewal
   std::vector<Renewal> renewals;  // all of them, the first one first
   std::vector<GatedRun> runs;
 
   const GatedRun* Find(const std::string& run_name) const;
+  void Describe(Fields& fields);
 };
 
 // ConfigError if the file is missing, saying how a baseline is taken; DataError if it is damaged.
@@ -30,6 +37,8 @@ struct HistoryEntry {
   std::string date, commit;
   int exit_code = 0;
   std::vector<GatedRun> runs;
+
+  void Describe(Fields& fields);
 };
 
 // Oldest first; empty where there is no file. DataError if it is damaged.

@@ -45,21 +45,6 @@ std::string BlameText(const Blame& blame) {
                      blame.last_good.empty() ? "none known" : blame.last_good);
 }
 
-nlohmann::json FindingToJson(const Finding& finding) {
-  nlohmann::json json = {{"run", finding.run},
-                         {"kind", Name(finding.kind)},
-                         {"metric", finding.metric},
-                         {"was", finding.was},
-                         {"is", finding.is},
-                         {"limit", finding.limit},
-                         {"change", Name(finding.change)}};
-  if (finding.change == Change::kRegressed) {
-    json["last_good"] = finding.blame.last_good;
-    json["first_bad"] = finding.blame.first_bad;
-  }
-  return json;
-}
-
 std::string JunitCase(const std::string& run, const std::string& kind, const char* tag,
                       const std::string& message) {
   const std::string head =
@@ -143,25 +128,70 @@ std::string Headline(const Judgement& judgement) {
   }
 }
 
-nlohmann::json ToJson(const GateOccasion& occasion, const Judgement& judgement) {
-  nlohmann::json findings = nlohmann::json::array(), runs = nlohmann::json::array();
-  for (const Finding& finding : judgement.findings) findings.push_back(FindingToJson(finding));
-  for (const GatedRun& run : occasion.measured.runs) runs.push_back(ToJson(run));
-  return {{"name", occasion.name},
-          {"date", occasion.date},
-          {"commit", occasion.commit},
-          {"cpu", occasion.cpu},
-          {"verdict", Headline(judgement)},
-          {"exit_code", static_cast<int>(judgement.Code())},
-          {"baseline",
-           {{"commit", occasion.baseline.commit},
-            {"date", occasion.baseline.date},
-            {"cpu", occasion.baseline.cpu}}},
-          {"findings", findings},
-          {"failures", judgement.failures},
-          {"not_in_baseline", judgement.unknown},
-          {"not_measured", judgement.unmeasured},
-          {"runs", runs}};
+void RegressionFile::BaselineEntry::Describe(Fields& f) {
+  f.Text("commit", commit, {.meaning = "commit of the program at the baseline's last renewal"});
+  f.Text("date", date, {.meaning = "date of the baseline's last renewal"});
+  f.Text("cpu", cpu, {.meaning = "CPU of the baseline's last renewal"});
+}
+
+void RegressionFile::FindingEntry::Describe(Fields& f) {
+  f.Text("run", run, {.meaning = "experiment: variant.scene.method.seed"});
+  f.Choice("kind", kind,
+           {{Name(NumberKind::kAccuracy), NumberKind::kAccuracy},
+            {Name(NumberKind::kSpeed), NumberKind::kSpeed}},
+           {.meaning = "kind of number"});
+  f.Text("metric", metric, {.meaning = "metric, or what was timed"});
+  f.Number("was", was, {.meaning = "value in the baseline", .infinite = true});
+  f.Number("is", is, {.meaning = "measured value", .infinite = true});
+  f.Number("limit", limit, {.meaning = "worst value that would have passed", .infinite = true});
+  f.Choice("change", change,
+           {{Name(Change::kWithin), Change::kWithin},
+            {Name(Change::kImproved), Change::kImproved},
+            {Name(Change::kRegressed), Change::kRegressed}},
+           {.meaning = "verdict on the number"});
+  f.Text("last_good", blame.last_good,
+         {.meaning = "last commit at which the number was good; only of a regression",
+          .optional = true});
+  f.Text("first_bad", blame.first_bad,
+         {.meaning = "first commit at which the number was bad; only of a regression",
+          .optional = true});
+}
+
+void RegressionFile::Describe(Fields& f) {
+  f.Text("name", name, {.meaning = "title of the gate"});
+  f.Text("date", date, {.meaning = "when the gate measured"});
+  f.Text("commit", commit, {.meaning = "commit of the program that was measured"});
+  f.Text("cpu", cpu, {.meaning = "CPU on which the gate measured"});
+  f.Text("verdict", verdict, {.meaning = "verdict in one sentence"});
+  f.Integer("exit_code", exit_code, {.meaning = "exit code of the gate"});
+  f.Section("baseline", baseline, {.meaning = "baseline that was compared with"});
+  f.List("findings", findings, {.meaning = "every number that was compared with the baseline"});
+  f.Map("failures", failures, {.meaning = "run → why it failed"});
+  f.Texts("not_in_baseline", not_in_baseline,
+          {.meaning = "runs and numbers that the baseline does not hold"});
+  f.Texts("not_measured", not_measured,
+          {.meaning = "runs and numbers of the baseline that were not measured"});
+  f.List("runs", runs, {.meaning = "numbers that were measured"});
+}
+
+RegressionFile MakeRegressionFile(const GateOccasion& occasion, const Judgement& judgement) {
+  RegressionFile file{occasion.name,
+                      occasion.date,
+                      occasion.commit,
+                      occasion.cpu,
+                      Headline(judgement),
+                      static_cast<int>(judgement.Code()),
+                      {occasion.baseline.commit, occasion.baseline.date, occasion.baseline.cpu},
+                      {},
+                      judgement.failures,
+                      judgement.unknown,
+                      judgement.unmeasured,
+                      occasion.measured.runs};
+  for (const Finding& finding : judgement.findings) {
+    file.findings.push_back({finding});
+    if (finding.change != Change::kRegressed) file.findings.back().blame = {};
+  }
+  return file;
 }
 
 std::string ToJunit(const GateOccasion& occasion, const Judgement& judgement) {

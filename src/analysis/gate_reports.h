@@ -15,7 +15,29 @@ struct GateOccasion {
   MeasuredRuns measured;
 };
 
-nlohmann::json ToJson(const GateOccasion& occasion, const Judgement& judgement);
+// regression.json.
+struct RegressionFile {
+  static constexpr StoredFormat kFormat{"vitruvia-regression", 1, 0, "run the gate again"};
+
+  struct BaselineEntry {
+    std::string commit, date, cpu;
+    void Describe(Fields& fields);
+  };
+  struct FindingEntry : Finding {
+    void Describe(Fields& fields);
+  };
+
+  std::string name, date, commit, cpu, verdict;
+  int exit_code = 0;
+  BaselineEntry baseline;
+  std::vector<FindingEntry> findings;
+  std::map<std::string, std::string> failures;
+  std::vector<std::string> not_in_baseline, not_measured;
+  std::vector<GatedRun> runs;
+
+  void Describe(Fields& fields);
+};
+RegressionFile MakeRegressionFile(const GateOccasion& occasion, const Judgement& judgement);
 // JUnit XML: a case for each run and kind of number.
 std::string ToJunit(const GateOccasion& occasion, const Judgement& judgement);
 std::string ToMarkdown(const GateOccasion& occasion, const Judgement& judgement);

@@ -70,35 +70,24 @@ GatedRun MakeGatedRun(const std::string& experiment, std::span<const RunRecord> 
   return gated;
 }
 
-nlohmann::json ToJson(const GatedRun& run) {
-  return {{"experiment", run.experiment},
-          {"variant", run.variant},
-          {"scene", run.scene},
-          {"method", run.method},
-          {"seed", run.seed},
-          {"repeats", run.repeats},
-          {"accuracy", run.accuracy},
-          {"unsteady", run.unsteady},
-          {"speed", run.speed},
-          {"speed_noise", run.speed_noise},
-          {"calibration_ms", run.calibration_ms}};
-}
-
-GatedRun ParseGatedRun(const JsonNode& node) {
-  const auto number = [](const JsonNode& item) { return item.Number(); };
-  GatedRun run;
-  run.experiment = node.At("experiment").Text();
-  run.variant = node.At("variant").Text();
-  run.scene = node.At("scene").Text();
-  run.method = node.At("method").Text();
-  run.seed = node.At("seed").Integer();
-  run.repeats = node.At("repeats").Integer();
-  run.accuracy = node.At("accuracy").Map(number);
-  run.unsteady = node.At("unsteady").Texts();
-  run.speed = node.At("speed").Map(number);
-  run.speed_noise = node.At("speed_noise").Map(number);
-  run.calibration_ms = node.At("calibration_ms").Number();
-  return run;
+void GatedRun::Describe(Fields& f) {
+  f.Text("experiment", experiment, {.meaning = "name of the experiment"});
+  f.Text("variant", variant, {.meaning = "name of the variant"});
+  f.Text("scene", scene, {.meaning = "name of the scene"});
+  f.Text("method", method, {.meaning = "name of the method"});
+  f.Integer("seed", seed, {.meaning = "seed of all random streams of the run"});
+  f.Integer("repeats", repeats, {.meaning = "how often the run was repeated"});
+  f.Map("accuracy", accuracy, {.meaning = "metric → its value in the first repeat"});
+  f.Texts("unsteady", unsteady, {.meaning = "metrics that differ between the repeats"});
+  f.Map("speed", speed,
+        {.meaning = "what was timed → its time as a multiple of the calibration kernel's, the "
+                    "median over the repeats"});
+  f.Map("speed_noise", speed_noise,
+        {.meaning = "what was timed → half the range of its time over the repeats as a share of "
+                    "the median"});
+  f.Number(
+      "calibration_ms", calibration_ms,
+      {.meaning = "time of the calibration kernel, the median over the repeats", .unit = "ms"});
 }
 
 }  // namespace vitruvia

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "config/json_node.h"
+#include "config/stored_data.h"
 #include "records/run_record.h"
 
 namespace vitruvia {
@@ -39,14 +39,12 @@ struct GatedRun {
   std::map<std::string, double> speed_noise;
   double calibration_ms = 0.0;  // median over the repeats
 
+  void Describe(Fields& fields);
   std::string name() const;  // "experiment: variant.scene.method.s1"
 };
 
 // Of the records of the same run, one for each repeat, at least one. Records without a calibration
 // have no speed.
 GatedRun MakeGatedRun(const std::string& experiment, std::span<const RunRecord> repeats);
-
-nlohmann::json ToJson(const GatedRun& run);
-GatedRun ParseGatedRun(const JsonNode& node);  // DataError naming file and key
 
 }  // namespace vitruvia

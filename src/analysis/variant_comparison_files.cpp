@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "analysis/variant_comparison.h"
-#include "config/json_node.h"
 
 namespace vitruvia {
 namespace {

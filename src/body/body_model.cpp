@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "config/json_settings.h"
+#include "config/stored_data.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "geometry/mesh_io.h"
@@ -25,16 +25,15 @@ constexpr std::size_t kWeightOffset = 4;  // after the bone and 3 bytes of paddi
 constexpr std::size_t kVertexBytes = kMaxInfluences * kInfluenceBytes;
 static_assert(std::endian::native == std::endian::little, "weights.bin is copied as it lies");
 
-// subject.json, by the strict reader of settings.
+// subject.json. It has no format key: its content is part of the hashes of stored sequences.
 struct BoneFile {
   std::string name;
   std::array<double, 3> joint{}, tip{};
 
   void Describe(Fields& f) {
-    f.Text("name", name, {.meaning = "bone", .required = true});
-    f.Numbers("joint", joint,
-              {.meaning = "proximal end, subject frame", .unit = "m", .required = true});
-    f.Numbers("tip", tip, {.meaning = "distal end, subject frame", .unit = "m", .required = true});
+    f.Text("name", name, {.meaning = "name of the bone"});
+    f.Numbers("joint", joint, {.meaning = "proximal end of the bone, subject frame", .unit = "m"});
+    f.Numbers("tip", tip, {.meaning = "distal end of the bone, subject frame", .unit = "m"});
   }
 };
 
@@ -46,18 +45,19 @@ struct SubjectFile {
 
   void Describe(Fields& f) {
     f.Integer("version", version,
-              {.meaning = "version of this format",
-               .min = kSubjectVersion,
-               .max = kSubjectVersion,
-               .required = true});
-    f.Text("name", name, {.meaning = "name of the body", .required = true});
+              {
+                  .meaning = "version of this format",
+                  .min = kSubjectVersion,
+                  .max = kSubjectVersion,
+              });
+    f.Text("name", name, {.meaning = "name of the body"});
     f.Number("height_m", attributes.height_m,
-             {.meaning = "height", .unit = "m", .min = 0.0, .max = 3.0, .required = true});
+             {.meaning = "height of the person", .unit = "m", .min = 0.0, .max = 3.0});
     f.Number("weight_kg", attributes.weight_kg,
-             {.meaning = "weight", .unit = "kg", .min = 0.0, .max = 500.0, .required = true});
+             {.meaning = "weight of the person", .unit = "kg", .min = 0.0, .max = 500.0});
     f.Choice("sex", attributes.sex, {{"female", Sex::kFemale}, {"male", Sex::kMale}},
-             {.meaning = "sex", .required = true});
-    f.List("bones", bones, {.meaning = "skeleton in the rest pose", .required = true});
+             {.meaning = "sex of the person"});
+    f.List("bones", bones, {.meaning = "skeleton in the rest pose"});
   }
 };
 
@@ -163,7 +163,7 @@ void CheckBodyModel(const BodyModel& body, const std::string& where) {
 }
 
 BodyModel ReadBodyModel(const fs::path& folder) {
-  const SubjectFile subject = ReadDataFile<SubjectFile>(folder / kSubjectFile);
+  const SubjectFile subject = ReadStoredObject<SubjectFile>(folder / kSubjectFile);
   BodyModel body;
   body.name = subject.name;
   body.attributes = subject.attributes;
@@ -179,7 +179,7 @@ void WriteBodyModel(const fs::path& folder, const BodyModel& body) {
   StagedFolder staged(folder, kWeightsFile);
   const SubjectFile subject{kSubjectVersion, body.name, body.attributes,
                             ToBoneFiles(body.skeleton)};
-  WriteWholeFile(staged.path() / kSubjectFile, WriteSettings(subject).dump(2) + "\n");
+  WriteWholeFile(staged.path() / kSubjectFile, StoredJson(subject).dump(2) + "\n");
   WriteMesh(staged.path() / kMeshFile, body.rest);
   WriteWeights(staged.path() / kWeightsFile, body.weights);
   staged.Commit();

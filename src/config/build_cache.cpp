@@ -15,10 +15,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Settings that name folders of data, not texts that happen to be a folder's name.
+// Whether a setting of this key names a folder of data.
 bool NamesFolder(const std::string& key) { return key.ends_with("folder") || key == "sequence"; }
 
-// Such folders can hold gigabytes: their files are told apart by name, size and time.
+// Adds the names, sizes and times of a folder's files, which can be gigabytes.
 void AddFolder(const fs::path& folder, Hash64& hash) {
   std::vector<std::string> files;
   std::error_code unreadable;
@@ -35,7 +35,7 @@ void AddFolder(const fs::path& folder, Hash64& hash) {
 }
 
 bool NamesFile(const std::string& text) {
-  std::error_code not_a_file;  // texts of all kinds are asked
+  std::error_code not_a_file;  // the text may be anything
   return fs::is_regular_file(text, not_a_file);
 }
 
@@ -83,35 +83,35 @@ std::string SettingsHash(const Json& resolved) {
   return Hash64().Add(WithPortablePaths(resolved).dump()).Hex();
 }
 
-std::string WorkKey(const Json& resolved) {
+std::string CacheKey(const Json& resolved) {
   Hash64 hash;
   hash.Add(GetBuildInfo().build_id).Add(SettingsHash(resolved));
   AddNamedFiles("", resolved, hash);
   return hash.Hex();
 }
 
-KeptFolder::KeptFolder(const fs::path& cache, const std::string& name, const Json& resolved)
+CachedFolder::CachedFolder(const fs::path& cache, const std::string& name, const Json& resolved)
     : folder_(cache / fmt::format("{}-{}", name, SettingsHash(resolved))),
       marker_(folder_.string() + ".key"),
-      key_(WorkKey(resolved)) {}
+      key_(CacheKey(resolved)) {}
 
-bool KeptFolder::complete() const {
+bool CachedFolder::complete() const {
   if (!fs::is_directory(folder_)) return false;
   try {
     return ReadWholeFile(marker_) == key_;
   } catch (const DataError&) {
-    return false;  // not made yet, or being made anew at this moment
+    return false;  // not built yet, or being built at this moment
   }
 }
 
-void KeptFolder::Obtain(const std::function<void(const fs::path&)>& make) const {
+void CachedFolder::GetOrBuild(const std::function<void(const fs::path&)>& build) const {
   if (complete()) return;
   MakeFolder(folder_.parent_path());
   const FileLock lock = FileLock::Wait(folder_.string() + ".lock", LockKind::kExclusive);
-  if (complete()) return;  // made while we waited
+  if (complete()) return;  // built while this process waited
   RemoveUnfinished(folder_);
-  fs::remove(marker_);  // or what another build made would be taken for what we make
-  make(folder_);
+  fs::remove(marker_);  // otherwise an interrupted build would pass for a complete one
+  build(folder_);
   WriteWholeFile(marker_, key_);
 }
 

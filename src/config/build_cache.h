@@ -1,5 +1,5 @@
-// Work that is kept: a folder named after the settings it was made from, found again only by the
-// build that made it.
+// A cache of built folders: each is named after the settings it was built from and is used again
+// only by the program that built it.
 #pragma once
 
 #include <filesystem>
@@ -10,30 +10,30 @@
 
 namespace vitruvia {
 
-// The settings with the files and folders that they name written alike, however the configs' path
-// was spelt: from the last folder called "configs" on, or else as absolute paths. What work is
-// called and found again by.
+// The settings with every path that they name in one spelling, so that the same files give the same
+// hash wherever the program was started: from the last folder called "configs" on, or else
+// absolute.
 Json WithPortablePaths(const Json& resolved);
-// Of those, 16 hex digits.
+// 16 hex digits of those settings.
 std::string SettingsHash(const Json& resolved);
 
-// What a stored result depends on: settings, the content of every file that they name, and the
-// program (its linked identity: a changed line of code is another program, committed or not). Two
-// equal keys mean that doing the work again would change nothing but the clock. Of a folder that
-// is named, names, sizes and times of its files stand for their content.
-std::string WorkKey(const Json& resolved);
+// A hash of everything that a result depends on: the settings, the content of every file that they
+// name, and the program (its linked identity, which differs whenever its code does). Equal keys
+// mean that building again would give the same result. For a folder that the settings name, the
+// names, sizes and times of its files stand for their content.
+std::string CacheKey(const Json& resolved);
 
-class KeptFolder {
+class CachedFolder {
  public:
   // `cache`/NAME-SETTINGSHASH.
-  KeptFolder(const std::filesystem::path& cache, const std::string& name, const Json& resolved);
+  CachedFolder(const std::filesystem::path& cache, const std::string& name, const Json& resolved);
 
   const std::filesystem::path& path() const { return folder_; }
-  // Whether the folder is there, whole, and of this very key.
+  // Whether the folder is there, complete, and built under this key.
   bool complete() const;
-  // Calls `make` unless the folder is complete. Of several processes that want the same folder at
-  // the same time one makes it; the others wait for it.
-  void Obtain(const std::function<void(const std::filesystem::path& folder)>& make) const;
+  // Calls `build` unless the folder is complete. If several processes ask for the same folder at
+  // the same time, one builds it and the others wait.
+  void GetOrBuild(const std::function<void(const std::filesystem::path& folder)>& build) const;
 
  private:
   std::filesystem::path folder_, marker_;

@@ -1,8 +1,8 @@
 #include "config/json_settings.h"
 
-#include <algorithm>
 #include <fstream>
 #include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -11,33 +11,13 @@
 namespace vitruvia {
 namespace {
 
-std::size_t EditDistance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
-    }
-  }
-  return row[b.size()];
-}
+namespace fs = std::filesystem;
 
-}  // namespace
-
-Json ReadJsonFile(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream || std::filesystem::is_directory(file)) {
-    throw ConfigError(fmt::format("{}: cannot be opened; expected a JSON file", file.string()));
-  }
-  // nlohmann keeps the last of two equal keys silently; a config that says a thing twice is a
-  // mistake.
+// nlohmann keeps the last of two equal keys silently. Names the first key that an object holds
+// twice; the text is known to be valid JSON.
+[[noreturn]] void RefuseRepeatedKey(const fs::path& file, std::istream& text) {
   std::vector<std::set<std::string>> keys;
-  const Json::parser_callback_t reject_repeated_keys = [&](int, Json::parse_event_t event,
-                                                           Json& parsed) {
+  const Json::parser_callback_t find = [&](int, Json::parse_event_t event, Json& parsed) {
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
     if (event == Json::parse_event_t::key &&
@@ -47,29 +27,46 @@ Json ReadJsonFile(const std::filesystem::path& file) {
     }
     return true;
   };
+  std::ignore = Json::parse(text, find);
+  throw ConfigError(fmt::format("{}: a key stands twice in one object", file.string()));
+}
+
+}  // namespace
+
+Json ReadJsonFile(const fs::path& file) {
+  std::ifstream stream(file);
+  if (!stream || fs::is_directory(file)) {
+    throw ConfigError(fmt::format("{}: cannot be opened; expected a JSON file", file.string()));
+  }
+  // An object with fewer members than keys holds a key twice, which is a mistake.
+  std::vector<std::size_t> keys;
+  bool repeated = false;
+  const Json::parser_callback_t count_keys = [&](int, Json::parse_event_t event, Json& parsed) {
+    if (event == Json::parse_event_t::object_start) keys.push_back(0);
+    if (event == Json::parse_event_t::key) ++keys.back();
+    if (event == Json::parse_event_t::object_end) {
+      repeated |= keys.back() != parsed.size();
+      keys.pop_back();
+    }
+    return true;
+  };
+  Json json;
   try {
-    return Json::parse(stream, reject_repeated_keys);
+    json = Json::parse(stream, count_keys);
   } catch (const Json::exception& error) {
     throw ConfigError(fmt::format("{}: not valid JSON: {}", file.string(), error.what()));
   }
+  if (repeated) {
+    stream.clear();
+    stream.seekg(0);
+    RefuseRepeatedKey(file, stream);
+  }
+  return json;
 }
 
 Json Merged(Json base, const Json& overrides) {
   base.merge_patch(overrides);
   return base;
-}
-
-std::string NearestWord(const std::string& word, const std::vector<std::string>& candidates) {
-  std::string nearest;
-  std::size_t best = word.size() / 2 + 1;  // farther than half the word is no likeness
-  for (const std::string& candidate : candidates) {
-    const std::size_t distance = EditDistance(word, candidate);
-    if (distance < best) {
-      best = distance;
-      nearest = candidate;
-    }
-  }
-  return nearest;
 }
 
 }  // namespace vitruvia

@@ -31,18 +31,25 @@ Json ReadJsonFile(const std::filesystem::path& file);
 // `base` with RFC 7386 merge-patch `overrides` applied.
 Json Merged(Json base, const Json& overrides);
 
+// Whose rules a file follows: keys that settings leave out keep their defaults; stored data holds
+// every key that its description does not call optional (stored_data.h).
+enum class FileKind { kSettings, kStoredData };
+
 namespace internal {
-void ReadSettingsWith(const Json& json, const JsonOrigin& origin, void* settings,
-                      void (*visit)(Fields&, void*));
-Json WriteSettingsWith(void* settings, void (*visit)(Fields&, void*));
+void ReadFields(const Json& json, const JsonOrigin& origin, FileKind kind, void* value,
+                void (*visit)(Fields&, void*));
+// In the order of the description.
+nlohmann::ordered_json WriteFields(void* value, void (*visit)(Fields&, void*));
+template <class Struct>
+void VisitFields(Fields& fields, void* value) {
+  fields.Visit(*static_cast<Struct*>(value));
+}
 }  // namespace internal
 
 template <class Struct>
 Struct ReadSettings(const Json& json, const JsonOrigin& origin) {
   Struct settings;
-  internal::ReadSettingsWith(json, origin, &settings, [](Fields& fields, void* s) {
-    fields.Visit(*static_cast<Struct*>(s));
-  });
+  internal::ReadFields(json, origin, FileKind::kSettings, &settings, internal::VisitFields<Struct>);
   return settings;
 }
 
@@ -51,22 +58,10 @@ Struct ReadSettingsFile(const std::filesystem::path& file) {
   return ReadSettings<Struct>(ReadJsonFile(file), {file, ""});
 }
 
-// The same strict reader for files of data, the headers of our own formats: what is wrong is
-// damaged data there, so DataError is thrown.
-template <class Struct>
-Struct ReadDataFile(const std::filesystem::path& file) {
-  try {
-    return ReadSettingsFile<Struct>(file);
-  } catch (const ConfigError& error) {
-    throw DataError(error.what());
-  }
-}
-
-// The resolved settings, every key present.
+// The resolved settings, every key present, in alphabetical order.
 template <class Struct>
 Json WriteSettings(Struct settings) {
-  return internal::WriteSettingsWith(
-      &settings, [](Fields& fields, void* s) { fields.Visit(*static_cast<Struct*>(s)); });
+  return internal::WriteFields(&settings, internal::VisitFields<Struct>);
 }
 
 // One line of `vitruvia explain`.
@@ -76,8 +71,9 @@ struct FieldDescription {
   std::string meaning, unit, range, default_value, origin, source;
 };
 
-// Every field of a settings struct, depth first, also those that depend on a choice.
-std::vector<FieldDescription> DescribeSettings(const std::string& prefix, void (*visit)(Fields&));
+// Every field of a struct, depth first, also those that depend on a choice.
+std::vector<FieldDescription> DescribeSettings(const std::string& prefix, void (*visit)(Fields&),
+                                               FileKind kind = FileKind::kSettings);
 
 template <class Struct>
 std::vector<FieldDescription> Describe(const std::string& prefix) {
@@ -86,8 +82,5 @@ std::vector<FieldDescription> Describe(const std::string& prefix) {
     fields.Visit(settings);
   });
 }
-
-// The candidate nearest to `word` by edit distance, or "" if none is near.
-std::string NearestWord(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace vitruvia

@@ -1,16 +1,18 @@
-// Settings that describe themselves.
+// Structs that describe themselves: settings, and the files of our own formats (stored_data.h).
 //
-// A struct of settings has one member function `void Describe(Fields& fields)` that names each
-// member once, with its meaning, unit, range and where its default comes from. The strict JSON
-// reader, the writer of resolved configs and `vitruvia explain` all walk that one description, so a
-// default, a range and a unit stand in exactly one place. An optional member
-// `std::string Problem() const` checks what no single field can ("" when all is well).
+// Such a struct has one member function `void Describe(Fields& fields)` that names each member
+// once, with its meaning, unit, range and where its default comes from. The strict JSON reader, the
+// writer, the JSON schema and `vitruvia explain` all walk that one description, so a default, a
+// range and a unit stand in exactly one place. An optional member `std::string Problem() const`
+// checks what no single field can ("" when all is well).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <span>
 #include <string>
 #include <utility>
@@ -36,13 +38,17 @@ struct About {
   double max = std::numeric_limits<double>::infinity();
   Origin origin = Origin::kInput;
   const char* source = "";  // equation, section or measurement behind the default
-  bool required = false;
+  bool required = false;    // settings: the key must be there, there is no default
+  // Of stored data only, where every key that is not optional must be there (see stored_data.h).
+  bool optional = false;    // absent in the file where there is no value: NaN, empty text or list
+  bool null_items = false;  // items of a list may be absent: null in the file, NaN in memory
+  bool infinite = false;    // numbers may be infinite: "Infinity" or "-Infinity" in the file
 };
 
 template <class Enum>
 using Choices = std::initializer_list<std::pair<const char*, Enum>>;
 
-// Visitor over the fields of a settings struct. Readers write through the references; writers and
+// Visitor over the fields of a struct. Readers write through the references; writers and
 // explainers only look.
 class Fields {
  public:
@@ -63,6 +69,45 @@ class Fields {
   virtual void Files(const char* key, std::vector<std::filesystem::path>& values,
                      const About& about) = 0;
   virtual void Integers(const char* key, std::vector<int>& values, const About& about) = 0;
+  // Any number of numbers.
+  virtual void NumberList(const char* key, std::vector<double>& values, const About& about) = 0;
+  virtual void Flags(const char* key, std::vector<bool>& values, const About& about) = 0;
+
+  // Numbers with names whose order matters, which an object would lose: [["name", 1.5], …].
+  // `Named` has the members `name` and `value`.
+  template <class Named>
+  void NamedNumbers(const char* key, std::vector<Named>& values, const About& about) {
+    NameAndNumberList pairs;
+    for (const Named& named : values) pairs.emplace_back(named.name, named.value);
+    NamesAndNumbers(key, pairs, about);
+    values.clear();
+    for (auto& [name, value] : pairs) values.push_back({std::move(name), value});
+  }
+
+  // Points: [[x, y, z], …]; with null_items an absent one is null, and NaN in memory. `Point` has
+  // data(), of three doubles.
+  template <class Point>
+  void Points(const char* key, std::vector<Point>& points, const About& about) {
+    std::vector<double> coordinates;
+    coordinates.reserve(3 * points.size());
+    for (const Point& point : points)
+      coordinates.insert(coordinates.end(), point.data(), point.data() + 3);
+    Triples(key, coordinates, about);
+    points.resize(coordinates.size() / 3);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      std::copy_n(coordinates.data() + 3 * i, 3, points[i].data());
+  }
+
+  // An object whose keys are data too. Values: double, std::string or std::vector<double>; `about`
+  // describes the object, and each value where the reader checks it.
+  template <class Value>
+  void Map(const char* key, std::map<std::string, Value>& values, const About& about) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : values) names.push_back(name);
+    if (!BeginMap(key, names, about)) return;
+    for (const std::string& name : names) Entry(name.c_str(), values[name], about);
+    EndMap();
+  }
 
   template <class Enum>
   void Choice(const char* key, Enum& value, Choices<Enum> choices, const About& about) {
@@ -109,6 +154,12 @@ class Fields {
   }
 
  protected:
+  using NameAndNumberList = std::vector<std::pair<std::string, double>>;
+  virtual void NamesAndNumbers(const char* key, NameAndNumberList& values, const About& about) = 0;
+  virtual void Triples(const char* key, std::vector<double>& coordinates, const About& about) = 0;
+  // Readers fill in the names; explainers give one that stands for all.
+  virtual bool BeginMap(const char* key, std::vector<std::string>& names, const About& about) = 0;
+  virtual void EndMap() = 0;
   virtual void ChoiceIndex(const char* key, std::size_t& index, std::span<const char* const> names,
                            const About& about) = 0;
   virtual bool BeginSection(const char* key, const About& about) = 0;
@@ -119,6 +170,13 @@ class Fields {
   virtual void EndList() = 0;
   virtual bool WantsProblems() const { return false; }
   virtual void ReportProblem(const std::string& /*problem*/) {}
+
+ private:
+  void Entry(const char* key, double& value, const About& about) { Number(key, value, about); }
+  void Entry(const char* key, std::string& value, const About& about) { Text(key, value, about); }
+  void Entry(const char* key, std::vector<double>& values, const About& about) {
+    NumberList(key, values, about);
+  }
 };
 
 }  // namespace vitruvia

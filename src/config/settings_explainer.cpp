@@ -10,7 +10,9 @@ namespace {
 
 class Explainer final : public Fields {
  public:
-  explicit Explainer(std::string prefix) { prefixes_.push_back(std::move(prefix)); }
+  Explainer(std::string prefix, FileKind kind) : kind_(kind) {
+    prefixes_.push_back(std::move(prefix));
+  }
   std::vector<FieldDescription> Take() { return std::move(lines_); }
 
   void Number(const char* key, double& value, const About& about) override {
@@ -33,7 +35,7 @@ class Explainer final : public Fields {
         nlohmann::json(std::vector<double>(values.begin(), values.end())).dump(), about);
   }
   void FreeJson(const char* key, nlohmann::json& value, const About& about) override {
-    Add(key, "object", value.dump(), about);
+    Add(key, value.is_array() ? "list" : "object", value.dump(), about);
   }
   void Texts(const char* key, std::vector<std::string>& values, const About& about) override {
     Add(key, "list of texts", nlohmann::json(values).dump(), about);
@@ -44,9 +46,28 @@ class Explainer final : public Fields {
   void Integers(const char* key, std::vector<int>& values, const About& about) override {
     Add(key, "list of whole numbers", nlohmann::json(values).dump(), about);
   }
+  void NumberList(const char* key, std::vector<double>& values, const About& about) override {
+    Add(key, about.null_items ? "list of numbers and nulls" : "list of numbers",
+        nlohmann::json(values).dump(), about);
+  }
+  void Flags(const char* key, std::vector<bool>& values, const About& about) override {
+    Add(key, "list of true or false", nlohmann::json(values).dump(), about);
+  }
   bool Applies(bool) override { return true; }
 
  protected:
+  void NamesAndNumbers(const char* key, NameAndNumberList&, const About& about) override {
+    Add(key, "list of [name, number]", "[]", about);
+  }
+  void Triples(const char* key, std::vector<double>&, const About& about) override {
+    Add(key, about.null_items ? "list of [x, y, z] and nulls" : "list of [x, y, z]", "[]", about);
+  }
+  bool BeginMap(const char* key, std::vector<std::string>& names, const About& about) override {
+    names = {"NAME"};  // one line, of the entries, says all
+    prefixes_.push_back(JoinedPath(prefixes_.back(), key));
+    return true;
+  }
+  void EndMap() override { prefixes_.pop_back(); }
   void ChoiceIndex(const char* key, std::size_t& index, std::span<const char* const> names,
                    const About& about) override {
     Add(key, "one of " + Quoted(names), fmt::format("\"{}\"", names[index]), about);
@@ -69,19 +90,24 @@ class Explainer final : public Fields {
 
  private:
   void Add(const char* key, std::string type, std::string value, const About& about) {
+    if (about.infinite) type += ", \"Infinity\" or \"-Infinity\"";
+    if (about.optional) type += ", optional";
+    if (kind_ == FileKind::kStoredData) value.clear();  // stored data have no defaults
     lines_.push_back({JoinedPath(prefixes_.back(), key), std::move(type), about.meaning, about.unit,
                       Range(about), about.required ? "(required)" : std::move(value),
                       Name(about.origin), about.source});
   }
 
+  FileKind kind_;
   std::vector<std::string> prefixes_;
   std::vector<FieldDescription> lines_;
 };
 
 }  // namespace
 
-std::vector<FieldDescription> DescribeSettings(const std::string& prefix, void (*visit)(Fields&)) {
-  Explainer explainer(prefix);
+std::vector<FieldDescription> DescribeSettings(const std::string& prefix, void (*visit)(Fields&),
+                                               FileKind kind) {
+  Explainer explainer(prefix, kind);
   visit(explainer);
   return explainer.Take();
 }

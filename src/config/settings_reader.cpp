@@ -1,9 +1,10 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
-#include <set>
 
 #include <fmt/format.h>
 
+#include "config/did_you_mean.h"
 #include "config/json_settings.h"
 #include "config/settings_schema.h"
 #include "config/settings_text.h"
@@ -52,21 +53,29 @@ std::filesystem::path ResolvedPath(const std::string& text, const std::string& w
 
 class Reader final : public Fields {
  public:
-  Reader(const Json& json, const JsonOrigin& origin) : origin_(origin) {
+  Reader(const Json& json, const JsonOrigin& origin, FileKind kind) : origin_(origin), kind_(kind) {
     if (!json.is_object()) {
       throw ConfigError(
           fmt::format("{}: expected an object, got {}", Where(origin.path), Shown(json)));
     }
-    levels_.push_back({&json, origin.path, {}});
+    Open(json, "");
   }
 
   void Finish() {
-    RejectUnknownKeys(levels_.back());
+    const Level& level = levels_.back();
+    if (level.found < level.json->size()) RejectUnknownKeys(level);
+    if (!missing_.empty()) {
+      const auto& [path, meaning] = missing_.front();
+      throw ConfigError(fmt::format("{}: missing; expected: {}", Where(path), meaning));
+    }
     levels_.pop_back();
   }
 
   void Number(const char* key, double& value, const About& about) override {
-    if (const Json* json = Find(key, about)) value = CheckedNumber(key, *json, about);
+    const Json* json = Find(key, about);
+    if (json == nullptr) return;
+    const bool is_absent = about.optional && json->is_null();
+    value = is_absent ? kNoNumber : CheckedNumber(key, *json, about);
   }
 
   void Integer(const char* key, int& value, const About& about) override {
@@ -84,11 +93,10 @@ class Reader final : public Fields {
     const Json* json = Find(key, about);
     if (json == nullptr) return;
     if (!json->is_string()) Reject(key, *json, "a text");
-    value = json->get<std::string>();
+    value = json->get_ref<const std::string&>();
   }
 
   void File(const char* key, std::filesystem::path& value, const About& about) override {
-    std::string text;
     const Json* json = Find(key, about);
     if (json == nullptr) return;
     if (!json->is_string()) Reject(key, *json, "a path");
@@ -101,91 +109,121 @@ class Reader final : public Fields {
     if (!json->is_array() || json->size() != values.size()) {
       Reject(key, *json, fmt::format("a list of {} numbers", values.size()));
     }
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      values[i] = CheckedNumber(fmt::format("{}[{}]", key, i), (*json)[i], about);
-    }
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] = CheckedNumber({key, i}, (*json)[i], about);
   }
 
-  void FreeJson(const char* key, nlohmann::json& value, const About& about) override {
-    if (const nlohmann::json* json = Find(key, about)) value = *json;
+  void FreeJson(const char* key, Json& value, const About& about) override {
+    const Json* json = Find(key, about);
+    if (json == nullptr) return;
+    value = *json;
+    if (about.infinite) RestoreInfinite(value);
   }
 
   void Texts(const char* key, std::vector<std::string>& values, const About& about) override {
-    const auto* json = FindList(key, about);
-    if (json == nullptr) return;
-    values.clear();
-    for (std::size_t i = 0; i < json->size(); ++i) {
-      const auto& item = (*json)[i];
-      if (!item.is_string()) Reject(fmt::format("{}[{}]", key, i), item, "a text");
-      values.push_back(item.get<std::string>());
-    }
+    ReadList(key, values, about, [&](const Place& place, const Json& item) {
+      if (!item.is_string()) Reject(place, item, "a text");
+      return item.get<std::string>();
+    });
   }
 
   void Files(const char* key, std::vector<std::filesystem::path>& values,
              const About& about) override {
-    std::vector<std::string> texts;
-    if (FindList(key, about) == nullptr) return;
-    Texts(key, texts, about);
-    values.clear();
-    for (const std::string& text : texts) {
-      const std::string item = fmt::format("{}[{}]", key, values.size());
-      values.push_back(ResolvedPath(text, Where(PathOf(item)), origin_.file));
-    }
+    ReadList(key, values, about, [&](const Place& place, const Json& item) {
+      if (!item.is_string()) Reject(place, item, "a path");
+      return ResolvedPath(item.get<std::string>(), Where(PathOf(place)), origin_.file);
+    });
   }
 
   void Integers(const char* key, std::vector<int>& values, const About& about) override {
-    const auto* json = FindList(key, about);
-    if (json == nullptr) return;
-    values.clear();
-    for (std::size_t i = 0; i < json->size(); ++i) {
-      values.push_back(CheckedInteger(fmt::format("{}[{}]", key, i), (*json)[i], about));
-    }
+    ReadList(key, values, about, [&](const Place& place, const Json& item) {
+      return CheckedInteger(place, item, about);
+    });
+  }
+
+  void NumberList(const char* key, std::vector<double>& values, const About& about) override {
+    ReadList(key, values, about, [&](const Place& place, const Json& item) {
+      return about.null_items && item.is_null() ? kNoNumber : CheckedNumber(place, item, about);
+    });
+  }
+
+  void Flags(const char* key, std::vector<bool>& values, const About& about) override {
+    ReadList(key, values, about, [&](const Place& place, const Json& item) {
+      if (!item.is_boolean()) Reject(place, item, "true or false");
+      return item.get<bool>();
+    });
   }
 
  protected:
+  void NamesAndNumbers(const char* key, NameAndNumberList& values, const About& about) override {
+    ReadList(key, values, about, [&](const Place& place, const Json& item) {
+      if (!item.is_array() || item.size() != 2 || !item[0].is_string() || !IsNumber(item[1], about))
+        Reject(place, item, "a name and a number");
+      return std::pair(item[0].get<std::string>(), CheckedNumber(place, item[1], about));
+    });
+  }
+
+  void Triples(const char* key, std::vector<double>& coordinates, const About& about) override {
+    const Json* json = FindList(key, about);
+    if (json == nullptr) return;
+    coordinates.clear();
+    for (std::size_t i = 0; i < json->size(); ++i) {
+      const Json& item = (*json)[i];
+      if (about.null_items && item.is_null()) {
+        coordinates.insert(coordinates.end(), 3, kNoNumber);
+        continue;
+      }
+      const bool is_point = item.is_array() && item.size() == 3 && item[0].is_number() &&
+                            item[1].is_number() && item[2].is_number();
+      if (!is_point) Reject({key, i}, item, "three numbers");
+      for (const Json& coordinate : item)
+        coordinates.push_back(CheckedNumber({key, i}, coordinate, about));
+    }
+  }
+
   void ChoiceIndex(const char* key, std::size_t& index, std::span<const char* const> names,
                    const About& about) override {
-    const nlohmann::json* json = Find(key, about);
+    const Json* json = Find(key, about);
     if (json == nullptr) return;
-    const std::string expected = "one of " + Quoted(names);
-    if (!json->is_string()) Reject(key, *json, expected);
-    const std::string text = json->get<std::string>();
+    const auto expected = [&] { return "one of " + Quoted(names); };
+    if (!json->is_string()) Reject(key, *json, expected());
+    const auto& text = json->get_ref<const std::string&>();
     const auto found = std::find(names.begin(), names.end(), text);
-    if (found == names.end()) {
-      const std::string nearest = NearestWord(text, {names.begin(), names.end()});
-      Reject(key, *json,
-             expected + (nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
-    }
+    if (found == names.end())
+      Reject(key, *json, expected() + DidYouMean(text, {names.begin(), names.end()}));
     index = static_cast<std::size_t>(found - names.begin());
   }
 
   bool BeginSection(const char* key, const About& about) override {
-    const nlohmann::json* json = Find(key, about);
+    const Json* json = Find(key, about);
     if (json == nullptr) return false;
     if (!json->is_object()) Reject(key, *json, "an object");
-    levels_.push_back({json, PathOf(key), {}});
+    Open(*json, key);
     return true;
   }
-
   void EndSection() override { Finish(); }
 
+  bool BeginMap(const char* key, std::vector<std::string>& names, const About& about) override {
+    if (!BeginSection(key, about)) return false;
+    names.clear();
+    for (const auto& item : levels_.back().json->items()) names.push_back(item.key());
+    return true;
+  }
+  void EndMap() override { Finish(); }
+
   bool BeginList(const char* key, std::size_t& count, const About& about) override {
-    const nlohmann::json* json = FindList(key, about);
+    const Json* json = FindList(key, about);
     if (json == nullptr) return false;
     count = json->size();
-    lists_.push_back({json, PathOf(key)});
+    lists_.emplace_back(json, key);
     return true;
   }
 
   void BeginItem(std::size_t index) override {
-    const auto& [json, path] = lists_.back();
-    const nlohmann::json& item = (*json)[index];
-    const std::string item_path = fmt::format("{}[{}]", path, index);
-    if (!item.is_object()) {
-      throw ConfigError(
-          fmt::format("{}: expected an object, got {}", Where(item_path), Shown(item)));
-    }
-    levels_.push_back({&item, item_path, {}});
+    const auto& [json, key] = lists_.back();
+    const Json& item = (*json)[index];
+    if (!item.is_object()) Reject({key, index}, item, "an object");
+    Open(item, {key, index});
   }
 
   void EndItem() override { Finish(); }
@@ -193,85 +231,140 @@ class Reader final : public Fields {
   bool WantsProblems() const override { return true; }
 
   void ReportProblem(const std::string& problem) override {
-    if (!problem.empty())
-      throw ConfigError(fmt::format("{}: {}", Where(levels_.back().path), problem));
+    // A missing key explains a problem better than what follows from its absence.
+    if (!problem.empty() && missing_.empty())
+      throw ConfigError(fmt::format("{}: {}", Where(PathOf(levels_.size())), problem));
   }
 
  private:
-  struct Level {
-    const nlohmann::json* json;
-    std::string path;
-    std::set<std::string> known;
+  static constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+
+  // A member of an object, or an item of a member that is a list. Put into words only for messages:
+  // large files have many places and no messages.
+  struct Place {
+    static constexpr std::size_t kNoItem = static_cast<std::size_t>(-1);
+    const char* key;
+    std::size_t item = kNoItem;
+    Place(const char* of_key, std::size_t of_item = kNoItem) : key(of_key), item(of_item) {}
+    std::string text() const { return item == kNoItem ? key : fmt::format("{}[{}]", key, item); }
   };
+
+  struct Level {
+    const Json* json;
+    Place place;                     // in the level above
+    std::vector<const char*> known;  // keys of the description
+    std::size_t found;               // of them in the file
+  };
+
+  void Open(const Json& json, const Place& place) { levels_.push_back({&json, place, {}, 0}); }
+
+  // Of the object at that depth.
+  std::string PathOf(std::size_t depth) const {
+    std::string path = origin_.path;
+    for (std::size_t i = 1; i < depth; ++i) path = JoinedPath(path, levels_[i].place.text());
+    return path;
+  }
+  std::string PathOf(const Place& place) const {
+    return JoinedPath(PathOf(levels_.size()), place.text());
+  }
 
   std::string Where(const std::string& path) const {
     return path.empty() ? origin_.file.string()
                         : fmt::format("{}: {}", origin_.file.string(), path);
   }
 
-  std::string PathOf(const std::string& key) const { return JoinedPath(levels_.back().path, key); }
-
-  [[noreturn]] void Reject(const std::string& key, const nlohmann::json& value,
+  [[noreturn]] void Reject(const Place& place, const Json& value,
                            const std::string& expected) const {
     throw ConfigError(
-        fmt::format("{}: expected {}, got {}", Where(PathOf(key)), expected, Shown(value)));
+        fmt::format("{}: expected {}, got {}", Where(PathOf(place)), expected, Shown(value)));
   }
 
-  const nlohmann::json* Find(const char* key, const About& about) {
+  bool Required(const About& about) const {
+    return kind_ == FileKind::kStoredData ? !about.optional : about.required;
+  }
+
+  const Json* Find(const char* key, const About& about) {
     Level& level = levels_.back();
-    level.known.insert(key);
+    level.known.push_back(key);
     const auto found = level.json->find(key);
-    if (found != level.json->end()) return &*found;
+    if (found != level.json->end()) {
+      ++level.found;
+      return &*found;
+    }
     // A misspelt key explains a missing one better than "missing" does.
-    if (about.required) missing_.push_back({PathOf(key), about.meaning});
+    if (Required(about)) missing_.emplace_back(PathOf(Place(key)), about.meaning);
     return nullptr;
   }
 
-  const nlohmann::json* FindList(const char* key, const About& about) {
-    const nlohmann::json* json = Find(key, about);
+  const Json* FindList(const char* key, const About& about) {
+    const Json* json = Find(key, about);
     if (json != nullptr && !json->is_array()) Reject(key, *json, "a list");
     return json;
   }
 
-  double CheckedNumber(const std::string& key, const nlohmann::json& json,
-                       const About& about) const {
-    if (!json.is_number()) Reject(key, json, Expected("a number", about));
-    const double value = json.get<double>();
-    if (!(value >= about.min && value <= about.max)) Reject(key, json, Expected("a number", about));
+  template <class Value, class Parse>
+  void ReadList(const char* key, std::vector<Value>& values, const About& about,
+                const Parse& parse) {
+    const Json* json = FindList(key, about);
+    if (json == nullptr) return;
+    values.clear();
+    values.reserve(json->size());
+    for (std::size_t i = 0; i < json->size(); ++i) values.push_back(parse({key, i}, (*json)[i]));
+  }
+
+  static bool IsInfinite(const Json& json) {
+    return json == kInfinityText || json == kMinusInfinityText;
+  }
+  static bool IsNumber(const Json& json, const About& about) {
+    return json.is_number() || (about.infinite && IsInfinite(json));
+  }
+  static double ValueOf(const Json& json) {
+    if (json.is_number()) return json.get<double>();
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return json == kInfinityText ? kInfinity : -kInfinity;
+  }
+
+  static void RestoreInfinite(Json& json) {
+    if (IsInfinite(json)) json = ValueOf(json);
+    if (!json.is_structured()) return;
+    for (Json& member : json) RestoreInfinite(member);
+  }
+
+  double CheckedNumber(const Place& place, const Json& json, const About& about) const {
+    if (!IsNumber(json, about)) Reject(place, json, Expected("a number", about));
+    const double value = ValueOf(json);
+    if (!(value >= about.min && value <= about.max))
+      Reject(place, json, Expected("a number", about));
     return value;
   }
 
-  int CheckedInteger(const std::string& key, const nlohmann::json& json, const About& about) const {
-    if (!json.is_number_integer()) Reject(key, json, Expected("a whole number", about));
+  int CheckedInteger(const Place& place, const Json& json, const About& about) const {
+    if (!json.is_number_integer()) Reject(place, json, Expected("a whole number", about));
     const double value = json.get<double>();
     if (!(value >= std::max(about.min, -2147483648.0) &&
           value <= std::min(about.max, 2147483647.0))) {
-      Reject(key, json, Expected("a whole number", about));
+      Reject(place, json, Expected("a whole number", about));
     }
     return json.get<int>();
   }
 
   void RejectUnknownKeys(const Level& level) {
+    std::vector<std::string> known(level.known.begin(), level.known.end());
+    std::sort(known.begin(), known.end());
+    known.erase(std::unique(known.begin(), known.end()), known.end());
     for (const auto& [key, value] : level.json->items()) {
-      if (level.known.contains(key)) continue;
-      if (key == kSchemaKey && level.path.empty() && value.is_string()) continue;
-      const std::string nearest = NearestWord(key, {level.known.begin(), level.known.end()});
-      std::string valid;
-      for (const std::string& name : level.known) valid += (valid.empty() ? "" : ", ") + name;
-      throw ConfigError(
-          fmt::format("{}: unknown key (value {}); {}valid keys here: {}",
-                      Where(JoinedPath(level.path, key)), Shown(value),
-                      nearest.empty() ? "" : fmt::format("did you mean \"{}\"? ", nearest), valid));
-    }
-    if (!missing_.empty()) {
-      const auto& [path, meaning] = missing_.front();
-      throw ConfigError(fmt::format("{}: missing; expected: {}", Where(path), meaning));
+      if (std::binary_search(known.begin(), known.end(), key)) continue;
+      if (key == kSchemaKey && levels_.size() == 1 && value.is_string()) continue;
+      throw ConfigError(fmt::format("{}: unknown key (value {});{} valid keys here: {}",
+                                    Where(PathOf(Place(key.c_str()))), Shown(value),
+                                    DidYouMean(key, known, " "), fmt::join(known, ", ")));
     }
   }
 
   JsonOrigin origin_;
+  FileKind kind_;
   std::vector<Level> levels_;
-  std::vector<std::pair<const nlohmann::json*, std::string>> lists_;
+  std::vector<std::pair<const Json*, const char*>> lists_;
   std::vector<std::pair<std::string, std::string>> missing_;
 };
 
@@ -279,10 +372,10 @@ class Reader final : public Fields {
 
 namespace internal {
 
-void ReadSettingsWith(const Json& json, const JsonOrigin& origin, void* settings,
-                      void (*visit)(Fields&, void*)) {
-  Reader reader(json, origin);
-  visit(reader, settings);
+void ReadFields(const Json& json, const JsonOrigin& origin, FileKind kind, void* value,
+                void (*visit)(Fields&, void*)) {
+  Reader reader(json, origin, kind);
+  visit(reader, value);
   reader.Finish();
 }
 

@@ -29,10 +29,16 @@ Json NumberType(const char* type, const About& about) {
   Json json = {{"type", type}};
   if (std::isfinite(about.min)) json["minimum"] = about.min;
   if (std::isfinite(about.max)) json["maximum"] = about.max;
-  return json;
+  if (!about.infinite) return json;
+  return {{"anyOf", {json, {{"enum", {kInfinityText, kMinusInfinityText}}}}}};
 }
 
 Json ListOf(Json item) { return {{"type", "array"}, {"items", std::move(item)}}; }
+
+Json ItemType(Json item, const About& about) {
+  if (!about.null_items) return item;
+  return {{"anyOf", {std::move(item), {{"type", "null"}}}}};
+}
 
 Json EmptyObject() {
   return {{"type", "object"},
@@ -45,7 +51,7 @@ Json EmptyObject() {
 // the former knows what may stand in a file, the latter what must.
 class SchemaWriter final : public Fields {
  public:
-  explicit SchemaWriter(Conditional conditional) : conditional_(conditional) {
+  SchemaWriter(Conditional conditional, FileKind kind) : conditional_(conditional), kind_(kind) {
     levels_.push_back(EmptyObject());
   }
   Json Take() { return std::move(levels_.back()); }
@@ -89,9 +95,38 @@ class SchemaWriter final : public Fields {
   void Integers(const char* key, std::vector<int>&, const About& about) override {
     Put(key, ListOf(NumberType("integer", about)), about);
   }
+  void NumberList(const char* key, std::vector<double>&, const About& about) override {
+    Put(key, ListOf(ItemType(NumberType("number", about), about)), about);
+  }
+  void Flags(const char* key, std::vector<bool>&, const About& about) override {
+    Put(key, ListOf({{"type", "boolean"}}), about);
+  }
   bool Applies(bool) override { return conditional_ == Conditional::kIncluded; }
 
  protected:
+  void NamesAndNumbers(const char* key, NameAndNumberList&, const About& about) override {
+    const Json pair = {{"type", "array"},
+                       {"prefixItems", {{{"type", "string"}}, NumberType("number", about)}},
+                       {"minItems", 2},
+                       {"maxItems", 2}};
+    Put(key, ListOf(pair), about);
+  }
+  void Triples(const char* key, std::vector<double>&, const About& about) override {
+    Json point = ListOf(NumberType("number", about));
+    point["minItems"] = point["maxItems"] = 3;
+    Put(key, ListOf(ItemType(std::move(point), about)), about);
+  }
+  bool BeginMap(const char* key, std::vector<std::string>& names, const About& about) override {
+    names = {kEveryName};
+    return BeginSection(key, about);
+  }
+  void EndMap() override {
+    Close([](const Json& section) {
+      Json map = {{"type", "object"}};
+      map["additionalProperties"] = section.at("properties").at(kEveryName);
+      return map;
+    });
+  }
   void ChoiceIndex(const char* key, std::size_t& index, std::span<const char* const> names,
                    const About& about) override {
     Json json = {{"enum", std::vector<std::string>(names.begin(), names.end())}};
@@ -129,16 +164,20 @@ class SchemaWriter final : public Fields {
   void Put(const char* key, Json schema, const About& about) {
     schema["description"] = Tooltip(about);
     levels_.back()["properties"][key] = std::move(schema);
-    if (about.required) levels_.back()["required"].push_back(key);
+    const bool required = kind_ == FileKind::kStoredData ? !about.optional : about.required;
+    if (required) levels_.back()["required"].push_back(key);
   }
 
+  static constexpr const char* kEveryName = "NAME";
+
   Conditional conditional_;
+  FileKind kind_;
   std::vector<Json> levels_;
   std::vector<std::pair<std::string, About>> open_;
 };
 
-Json Walked(Conditional conditional, void (*visit)(Fields&)) {
-  SchemaWriter writer(conditional);
+Json Walked(Conditional conditional, FileKind kind, void (*visit)(Fields&)) {
+  SchemaWriter writer(conditional, kind);
   visit(writer);
   return writer.Take();
 }
@@ -159,9 +198,9 @@ void TakeRequired(Json& all, const Json& unconditional) {
 
 }  // namespace
 
-Json SettingsSchema(void (*visit)(Fields&)) {
-  Json schema = Walked(Conditional::kIncluded, visit);
-  TakeRequired(schema, Walked(Conditional::kLeftOut, visit));
+Json SettingsSchema(void (*visit)(Fields&), FileKind kind) {
+  Json schema = Walked(Conditional::kIncluded, kind, visit);
+  TakeRequired(schema, Walked(Conditional::kLeftOut, kind, visit));
   return schema;
 }
 

@@ -15,7 +15,7 @@ void VisitDefaults(Fields& fields) {
 
 // Fields that depend on a choice are allowed whatever is chosen: the strict reader knows better,
 // and checks what no single field can.
-Json SettingsSchema(void (*visit)(Fields&));
+Json SettingsSchema(void (*visit)(Fields&), FileKind kind = FileKind::kSettings);
 
 // The schema of a whole config file with those settings.
 Json ConfigSchema(const std::string& title, Json settings);

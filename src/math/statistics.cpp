@@ -27,4 +27,11 @@ double Maximum(std::span<const double> values) {
   return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
 }
 
+std::vector<double> PresentValues(std::span<const double> values) {
+  std::vector<double> present;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(present),
+               [](double value) { return !std::isnan(value); });
+  return present;
+}
+
 }  // namespace vitruvia

@@ -11,5 +11,7 @@ namespace vitruvia {
 double Quantile(std::vector<double> values, double share);
 double Mean(std::span<const double> values);     // 0 of an empty sample
 double Maximum(std::span<const double> values);  // 0 of an empty sample
+// The values that are not NaN: a series of frames holds NaN where there is no value.
+std::vector<double> PresentValues(std::span<const double> values);
 
 }  // namespace vitruvia

@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "config/did_you_mean.h"
 #include "config/settings_schema.h"
 #include "core/error.h"
 #include "methods/dynamic/dynamic.h"
@@ -61,11 +62,8 @@ const Entry& FindEntry(const std::string& name, const std::string& where) {
     if (entry.info.name == name) return entry;
     names.push_back(entry.info.name);
   }
-  const std::string nearest = NearestWord(name, names);
-  throw ConfigError(
-      fmt::format("{}: method: unknown method \"{}\"; {}known: {}", where, name,
-                  nearest.empty() ? "" : fmt::format("did you mean \"{}\"? ", nearest),
-                  fmt::join(names, ", ")));
+  throw ConfigError(fmt::format("{}: method: unknown method \"{}\";{} known: {}", where, name,
+                                DidYouMean(name, names, " "), fmt::join(names, ", ")));
 }
 
 }  // namespace

@@ -7,6 +7,18 @@
 #include "math/statistics.h"
 
 namespace vitruvia {
+namespace {
+
+constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
+
+double MeanOrAbsent(const std::vector<double>& values) {
+  return values.empty() ? kAbsent : Mean(values);
+}
+double MaximumOrAbsent(const std::vector<double>& values) {
+  return values.empty() ? kAbsent : Maximum(values);
+}
+
+}  // namespace
 
 RestCorrespondence::RestCorrespondence(const TriangleMesh& estimate_rest,
                                        const TriangleMesh& true_rest)
@@ -56,8 +68,8 @@ VertexErrorSummary Summarize(const std::vector<double>& errors_m,
   std::vector<double> seen, hidden;
   for (std::size_t i = 0; i < errors_m.size(); ++i)
     (visible[i] ? seen : hidden).push_back(errors_m[i]);
-  return {Mean(errors_m), Maximum(errors_m), Mean(seen),
-          Maximum(seen),  Mean(hidden),      Maximum(hidden)};
+  return {MeanOrAbsent(errors_m), MaximumOrAbsent(errors_m), MeanOrAbsent(seen),
+          MaximumOrAbsent(seen),  MeanOrAbsent(hidden),      MaximumOrAbsent(hidden)};
 }
 
 }  // namespace vitruvia

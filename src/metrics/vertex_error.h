@@ -35,11 +35,12 @@ std::vector<bool> VisiblePoints(const std::vector<Vector3f>& points,
                                 const DepthImage& rendered_truth, const PinholeCamera& camera,
                                 double visible_within_m);
 
-// Mean and maximum over all, visible and hidden vertices; 0 over none.
+// Mean and maximum over all, visible and hidden vertices, metres; NaN where there are none: an
+// error that was not measured is absent, not zero.
 struct VertexErrorSummary {
-  double mean_m = 0.0, max_m = 0.0;
-  double visible_mean_m = 0.0, visible_max_m = 0.0;
-  double hidden_mean_m = 0.0, hidden_max_m = 0.0;
+  double mean_m, max_m;
+  double visible_mean_m, visible_max_m;
+  double hidden_mean_m, hidden_max_m;
 };
 VertexErrorSummary Summarize(const std::vector<double>& errors_m, const std::vector<bool>& visible);
 

@@ -1,8 +1,6 @@
-// What a tracker said of a sequence, stored raw so that every metric can be computed again.
+// A tracker's estimate of a sequence, stored raw so that every metric can be computed again.
 //
-//   estimate.json   format, version, vertex count, and per frame: outcome, message, iterations,
-//                   frame_ms, step_ms, energies, energy_rise, condition, joints (camera frame,
-//                   metres); tracker_memory_mb
+//   estimate.json   EstimateFile (docs/stored_data.md)
 //   vertices.bin    float32 [frames][vertices][3], camera frame, metres, little-endian
 //   mesh.ply        triangles and rest pose of the tracked surface
 #pragma once
@@ -13,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "config/stored_data.h"
 #include "tracking/tracker.h"
 
 namespace vitruvia {
@@ -21,21 +20,35 @@ struct FrameEstimate {
   Outcome outcome = Outcome::kNoData;
   std::string message;
   int iterations = 0;
-  double frame_ms = 0.0;  // wall clock round TrackFrame only
+  double frame_ms = 0.0;  // wall clock of TrackFrame only
   std::vector<NamedValue> step_ms, energies;
-  double condition = -1.0;
-  double energy_rise = -1.0;    // see TrackResult
+  double condition = kAbsent;    // of the normal equations; infinite if they are singular
+  double energy_rise = kAbsent;  // see TrackResult
   double rotation_drift = 0.0;  // largest ‖RᵀR − I‖ of any bone; 0 for methods without bones
-  std::vector<Vector3<double>> joints;
+  std::vector<Vector3<double>> joints;  // camera frame, metres
+
+  void Describe(Fields& fields);
+};
+
+struct EstimateFile {
+  static constexpr StoredFormat kFormat{"vitruvia-estimate", 2, 1, "run the experiment again"};
+
+  int vertex_count = 0;
+  double tracker_memory_mb = kAbsent;  // MB of 10⁶ bytes
+  std::vector<FrameEstimate> frames;
+
+  void Describe(Fields& fields);
+  static void Upgrade(Json& file, int version);
 };
 
 class EstimateWriter {
  public:
   EstimateWriter(std::filesystem::path folder, const TriangleMesh& rest_mesh);
   ~EstimateWriter();
+  // std::invalid_argument naming frame and value if the result cannot be stored.
   void Append(const TrackResult& result, double frame_ms);
-  // Moves the folder into place; without it nothing is left behind. The memory is the most that
-  // the tracker held, in MB of 10⁶ bytes.
+  // Moves the folder into place; without it nothing is left behind. `tracker_memory_mb`: the most
+  // memory that the tracker held, in MB of 10⁶ bytes.
   void Finish(std::optional<double> tracker_memory_mb = std::nullopt);
 
  private:
@@ -48,15 +61,14 @@ class EstimateReader {
  public:
   explicit EstimateReader(std::filesystem::path folder);
   const TriangleMesh& rest_mesh() const { return rest_mesh_; }
-  const std::vector<FrameEstimate>& frames() const { return frames_; }
-  std::optional<double> tracker_memory_mb() const { return tracker_memory_mb_; }
+  const std::vector<FrameEstimate>& frames() const { return file_.frames; }
+  std::optional<double> tracker_memory_mb() const;
   std::vector<Vector3f> ReadVertices(int frame) const;
 
  private:
   std::filesystem::path folder_;
   TriangleMesh rest_mesh_;
-  std::vector<FrameEstimate> frames_;
-  std::optional<double> tracker_memory_mb_;
+  EstimateFile file_;
 };
 
 }  // namespace vitruvia

@@ -1,21 +1,19 @@
 #include "records/metric_value.h"
 
-#include <cmath>
-
 namespace vitruvia {
 namespace {
 
 double MemberNumber(const nlohmann::json& object, const std::string& key) {
-  if (!object.is_object()) return NAN;
+  if (!object.is_object()) return kAbsent;
   const auto found = object.find(key);
-  return found != object.end() && found->is_number() ? found->get<double>() : NAN;
+  return found != object.end() && found->is_number() ? found->get<double>() : kAbsent;
 }
 
 double StepTime(const RunRecord& run, const std::string& step, double RunRecord::Step::*time_ms) {
   for (const RunRecord::Step& candidate : run.steps) {
     if (candidate.name == step) return candidate.*time_ms;
   }
-  return NAN;
+  return kAbsent;
 }
 
 double FamilyValue(const RunRecord& run, const Metric& metric) {
@@ -27,7 +25,7 @@ double FamilyValue(const RunRecord& run, const Metric& metric) {
     const auto found = run.joint_error_mean_m.find(metric.member);
     if (found != run.joint_error_mean_m.end()) return found->second;
   }
-  return NAN;  // energies of terms are stored per frame only
+  return kAbsent;  // energies of terms are stored per frame only
 }
 
 }  // namespace

@@ -2,117 +2,35 @@
 
 #include <algorithm>
 
-#include "config/json_node.h"
+#include "core/error.h"
 #include "core/files.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 namespace {
 
 constexpr const char* kExperimentFile = "experiment.json";
 constexpr const char* kRunFile = "record.json";
-constexpr int kIndent = 1;
+constexpr const char* kSummaryFile = "summary.json";
 
-// Free parts of a record are written by others: a NaN in them would become null without a word.
-const Json& Checked(const Json& json, const std::string& path) {
-  if (json.is_number_float()) Finite(json.get<double>(), path);
-  if (json.is_structured()) {
-    for (const auto& item : json.items()) Checked(item.value(), path + "." + item.key());
+// "" or which list of a map differs in length from `length` items.
+std::string LengthProblem(const std::map<std::string, std::vector<double>>& lists,
+                          std::size_t length, const char* key) {
+  for (const auto& [name, values] : lists) {
+    if (values.size() == length) continue;
+    return fmt::format("{}.{}: expected {} values, got {}", key, name, length, values.size());
   }
-  return json;
+  return "";
 }
 
-// "No value in this frame" (no hidden joint, say) is NaN in memory and null in the file.
-Json SeriesToJson(const std::map<std::string, std::vector<double>>& series,
-                  const std::string& path) {
-  Json json = Json::object();
-  for (const auto& [name, values] : series) {
-    Json list = Json::array();
-    for (const double value : values) list.push_back(FiniteOrNull(value, path + "." + name));
-    json[name] = std::move(list);
+std::string RowProblem(const nlohmann::json& row) {
+  if (!row.is_object()) return "summary: expected an object, got " + row.dump();
+  for (const auto& [key, value] : row.items()) {
+    if (value.is_structured())
+      return fmt::format("summary.{}: expected a number, a text, true or false, got {}", key,
+                         value.dump());
   }
-  return json;
-}
-
-Json StepsToJson(const std::vector<RunRecord::Step>& steps) {
-  Json json = Json::array();
-  for (const RunRecord::Step& step : steps) {
-    json.push_back({{"name", step.name},
-                    {"median_ms", Finite(step.median_ms, step.name + ".median_ms")},
-                    {"p95_ms", Finite(step.p95_ms, step.name + ".p95_ms")},
-                    {"max_ms", Finite(step.max_ms, step.name + ".max_ms")}});
-  }
-  return json;
-}
-
-RunRecord::Step ParseStep(const JsonNode& node) {
-  return {node.At("name").Text(), node.At("median_ms").Number(), node.At("p95_ms").Number(),
-          node.At("max_ms").Number()};
-}
-
-// A map of lists that must all be as long as `length`, or as the first if that is negative.
-std::map<std::string, std::vector<double>> ParseSeries(const JsonNode& node, int length) {
-  auto series = node.Map([](const JsonNode& item) { return item.NumbersOrNull(); });
-  for (const auto& [name, values] : series) {
-    if (length < 0) length = static_cast<int>(values.size());
-    if (static_cast<int>(values.size()) != length) {
-      node.At(name).Fail(fmt::format("expected {} values, found {}", length, values.size()));
-    }
-  }
-  return series;
-}
-
-Expectation ParseExpectation(const JsonNode& node) {
-  return {node.At("metric").Text(),
-          node.At("paper").NumberOr(kNoValue),
-          node.At("at_most").NumberOr(kNoValue),
-          node.At("source").Text(),
-          node.At("remark").Text(),
-          node.json().contains("not_comparable") ? node.At("not_comparable").Text() : "",
-          node.At("at_least").NumberOr(kNoValue),
-          node.At("scenes").List([](const JsonNode& scene) { return scene.Text(); })};
-}
-
-RunRecord ParseRunRecord(const JsonNode& node) {
-  RunRecord r;
-  r.run_id = node.At("run_id").Text();
-  r.experiment = node.At("experiment").Text();
-  r.variant = node.At("variant").Text();
-  r.scene = node.At("scene").Text();
-  r.method = node.At("method").Text();
-  r.seed = node.At("seed").Integer();
-  r.sequence_folder = node.At("sequence_folder").Text();
-  r.sequence_hash = node.At("sequence_hash").Text();
-  r.config = node.At("config").json();
-  r.provenance = node.At("provenance").json();
-  r.summary = node.At("summary").json();
-  if (!r.summary.is_object()) node.At("summary").Fail("expected an object");
-  r.frames = ParseSeries(node.At("frames"), -1);
-  r.threshold_m = node.At("threshold_m").Numbers();
-  r.joint_accuracy = ParseSeries(node.At("joint_accuracy"), static_cast<int>(r.threshold_m.size()));
-  r.joint_error_mean_m = node.At("joint_error_mean_m").Map([](const JsonNode& item) {
-    return item.NumberOr(kNoValue);
-  });
-  r.steps = node.At("steps").List(ParseStep);
-  r.diagonal_m = node.At("diagonal_m").Number();
-  return r;
-}
-
-ExperimentRecord ParseExperimentRecord(const JsonNode& node) {
-  ExperimentRecord e;
-  e.name = node.At("name").Text();
-  e.title = node.At("title").Text();
-  e.description = node.At("description").Text();
-  e.expectations = node.At("expectations").List(ParseExpectation);
-  e.picture_frames =
-      node.At("picture_frames").List([](const JsonNode& item) { return item.Integer(); });
-  if (node.json().contains("side_by_side")) {  // older records have none
-    e.side_by_side = node.At("side_by_side").Flag();
-  }
-  e.run_ids = node.At("run_ids").Texts();
-  e.failed_runs = node.At("failed_runs").Map([](const JsonNode& item) { return item.Text(); });
-  return e;
+  return "";
 }
 
 }  // namespace
@@ -121,88 +39,149 @@ bool Expectation::IsAbout(const std::string& scene) const {
   return scenes.empty() || std::find(scenes.begin(), scenes.end(), scene) != scenes.end();
 }
 
-void to_json(Json& json, const Expectation& e) {
-  json = {{"metric", e.metric},
-          {"paper", FiniteOrNull(e.paper, e.metric + ".paper")},
-          {"at_most", FiniteOrNull(e.at_most, e.metric + ".at_most")},
-          {"source", e.source},
-          {"remark", e.remark},
-          {"not_comparable", e.not_comparable},
-          {"at_least", FiniteOrNull(e.at_least, e.metric + ".at_least")},
-          {"scenes", e.scenes}};
+void Expectation::Describe(Fields& f) {
+  f.Text("metric", metric, {.meaning = "key of the summary row"});
+  f.Number("paper", paper,
+           {.meaning = "value that the paper prints, in the metric's unit", .optional = true});
+  f.Number("at_most", at_most,
+           {.meaning = "upper bound that this work sets itself", .optional = true});
+  f.Number("at_least", at_least,
+           {.meaning = "lower bound that this work sets itself", .optional = true});
+  f.Text("source", source, {.meaning = "where the published value stands"});
+  f.Text("remark", remark, {.meaning = "how this work differs from the paper's"});
+  f.Text("not_comparable", not_comparable,
+         {.meaning = "why this work's value says nothing about the paper's; absent if it does",
+          .optional = true});
+  f.Texts("scenes", scenes,
+          {.meaning = "scenes that the expectation is about; absent: all", .optional = true});
 }
 
-void from_json(const Json& json, Expectation& e) {
-  e = ParseExpectation(JsonNode(json, "expectation"));
+void RunRecord::Step::Describe(Fields& f) {
+  f.Text("name", name, {.meaning = "name of the step"});
+  f.Number("median_ms", median_ms, {.meaning = "median time in a frame", .unit = "ms"});
+  f.Number("p95_ms", p95_ms, {.meaning = "95th percentile of the time in a frame", .unit = "ms"});
+  f.Number("max_ms", max_ms, {.meaning = "longest time in a frame", .unit = "ms"});
 }
 
-void to_json(Json& json, const RunRecord& r) {
-  Json joint_errors = Json::object();
-  for (const auto& [joint, error_m] : r.joint_error_mean_m) {
-    joint_errors[joint] = FiniteOrNull(error_m, "joint_error_mean_m." + joint);
+void RunRecord::Describe(Fields& f) {
+  f.Text("run_id", run_id, {.meaning = "identity of the run, the name of its folder"});
+  f.Text("experiment", experiment, {.meaning = "name of the experiment"});
+  f.Text("variant", variant, {.meaning = "name of the variant"});
+  f.Text("scene", scene, {.meaning = "name of the scene"});
+  f.Text("method", method, {.meaning = "name of the method"});
+  f.Integer("seed", seed, {.meaning = "seed of all random streams of the run"});
+  std::string folder = sequence_folder.generic_string();
+  f.Text("sequence_folder", folder,
+         {.meaning = "folder of the sequence relative to the experiment's folder; empty if the run "
+                     "has no sequence"});
+  sequence_folder = folder;
+  f.Text("sequence_hash", sequence_hash,
+         {.meaning = "hash of the sequence's content; empty if the run has no sequence"});
+  f.FreeJson("config", config, {.meaning = "resolved settings of the run"});
+  f.FreeJson("provenance", provenance,
+             {.meaning = "commit, compiler, flags, CPU and calibration time of the run"});
+  f.FreeJson("summary", summary,
+             {.meaning = "the run's row: metric → number, text, true or false", .infinite = true});
+  f.Map("frames", frames,
+        {.meaning = "series: name → one value for each frame, null where a frame has none",
+         .null_items = true,
+         .infinite = true});
+  f.NumberList("threshold_m", threshold_m,
+               {.meaning = "thresholds of the joint accuracy curves; absent where no joints were "
+                           "scored",
+                .unit = "m",
+                .optional = true});
+  f.Map("joint_accuracy", joint_accuracy,
+        {.meaning = "class of joints (all, visible, hidden) → share of joints with an error of at "
+                    "most each threshold; absent where no joints were scored",
+         .optional = true});
+  f.Map("joint_error_mean_m", joint_error_mean_m,
+        {.meaning = "joint → mean error; absent where no joints were scored",
+         .unit = "m",
+         .optional = true});
+  f.List("steps", steps, {.meaning = "times of the method's steps, in its order"});
+  f.Number("diagonal_m", diagonal_m,
+           {.meaning = "diagonal of the bounding box of the true subject in the rest pose; absent "
+                       "without a true surface",
+            .unit = "m",
+            .optional = true});
+}
+
+// Version 0 wrote a diagonal of 0 where there was no true surface.
+void RunRecord::Upgrade(Json& file, int /*version*/) {
+  if (file.is_object() && file.contains("diagonal_m") && file.at("diagonal_m") == 0.0)
+    file.erase("diagonal_m");
+}
+
+std::string RunRecord::Problem() const {
+  const std::size_t frame_count = frames.empty() ? 0 : frames.begin()->second.size();
+  for (const std::string& problem :
+       {RowProblem(summary), LengthProblem(frames, frame_count, "frames"),
+        LengthProblem(joint_accuracy, threshold_m.size(), "joint_accuracy")}) {
+    if (!problem.empty()) return problem;
   }
-  json = {{"run_id", r.run_id},
-          {"experiment", r.experiment},
-          {"variant", r.variant},
-          {"scene", r.scene},
-          {"method", r.method},
-          {"seed", r.seed},
-          {"sequence_folder", r.sequence_folder.generic_string()},
-          {"sequence_hash", r.sequence_hash},
-          {"config", Checked(r.config, "config")},
-          {"provenance", Checked(r.provenance, "provenance")},
-          {"summary", Checked(r.summary, "summary")},
-          {"frames", SeriesToJson(r.frames, "frames")},
-          {"threshold_m", Checked(Json(r.threshold_m), "threshold_m")},
-          {"joint_accuracy", SeriesToJson(r.joint_accuracy, "joint_accuracy")},
-          {"joint_error_mean_m", joint_errors},
-          {"steps", StepsToJson(r.steps)},
-          {"diagonal_m", Finite(r.diagonal_m, "diagonal_m")}};
+  return "";
 }
 
-void from_json(const Json& json, RunRecord& r) { r = ParseRunRecord(JsonNode(json, "run record")); }
-
-void to_json(Json& json, const ExperimentRecord& e) {
-  json = {{"name", e.name},
-          {"title", e.title},
-          {"description", e.description},
-          {"expectations", e.expectations},
-          {"picture_frames", e.picture_frames},
-          {"side_by_side", e.side_by_side},
-          {"run_ids", e.run_ids},
-          {"failed_runs", e.failed_runs}};
+void ExperimentRecord::Describe(Fields& f) {
+  f.Text("name", name, {.meaning = "path of the experiment's file below configs/"});
+  f.Text("title", title, {.meaning = "title of the report"});
+  f.Text("description", description, {.meaning = "what the experiment shows"});
+  f.List("expectations", expectations, {.meaning = "published values and targets"});
+  f.Integers("picture_frames", picture_frames, {.meaning = "frames of the report's pictures"});
+  f.Flag("side_by_side", side_by_side,
+         {.meaning = "whether the report shows the pictures of all runs below each other"});
+  f.Texts("run_ids", run_ids, {.meaning = "runs of the experiment, in the order of its grid"});
+  f.Map("failed_runs", failed_runs, {.meaning = "run → why it failed or is out of date"});
 }
 
-void from_json(const Json& json, ExperimentRecord& e) {
-  e = ParseExperimentRecord(JsonNode(json, "experiment record"));
+void ExperimentSummary::Describe(Fields& f) {
+  f.Text("experiment", experiment, {.meaning = "name of the experiment"});
+  f.FreeJson("variants", variants,
+             {.meaning = "means of each variant over its runs, and differences from the first "
+                         "variant",
+              .infinite = true});
+  f.Map("failed_runs", failed_runs, {.meaning = "run → why it failed"});
+  f.Texts("missing_runs", missing_runs,
+          {.meaning = "runs that are not carried out or out of date"});
+  f.FreeJson(
+      "rows", rows,
+      {.meaning = "the row of each finished run (summary of record.json)", .infinite = true});
 }
 
 ExperimentRecord ReadExperimentRecord(const fs::path& experiment_folder) {
-  const fs::path file = experiment_folder / kExperimentFile;
-  return ParseExperimentRecord(JsonNode(ReadStoredJson(file), file.string()));
+  return ReadStored<ExperimentRecord>(experiment_folder / kExperimentFile);
 }
 
 RunRecord ReadRunRecord(const fs::path& experiment_folder, const std::string& run_id) {
   const fs::path file = experiment_folder / run_id / kRunFile;
-  const Json json = ReadStoredJson(file);
-  const JsonNode node(json, file.string());
-  RunRecord record = ParseRunRecord(node);
+  RunRecord record = ReadStored<RunRecord>(file);
   if (record.run_id != run_id) {
-    node.At("run_id").Fail(fmt::format("expected the folder's name \"{}\"", run_id));
+    throw DataError(fmt::format("{}: run_id: expected the folder's name \"{}\", got \"{}\"",
+                                file.string(), run_id, record.run_id));
   }
   return record;
 }
 
 void WriteExperimentRecord(const fs::path& experiment_folder, const ExperimentRecord& record) {
-  const Json json = record;
+  RequireStorable(record, "");  // before the folder is made
   MakeFolder(experiment_folder);
-  WriteWholeFile(experiment_folder / kExperimentFile, json.dump(kIndent) + "\n");
+  WriteStored(experiment_folder / kExperimentFile, record);
 }
 
 void WriteRunRecord(const fs::path& experiment_folder, const RunRecord& record) {
-  const Json json = record;
+  RequireStorable(record, "");
   MakeFolder(experiment_folder / record.run_id);
-  WriteWholeFile(experiment_folder / record.run_id / kRunFile, json.dump(kIndent) + "\n");
+  WriteStored(experiment_folder / record.run_id / kRunFile, record);
+}
+
+ExperimentSummary ReadSummary(const fs::path& experiment_folder) {
+  return ReadStored<ExperimentSummary>(experiment_folder / kSummaryFile);
+}
+
+void WriteExperimentSummary(const fs::path& experiment_folder, const ExperimentSummary& summary) {
+  constexpr int kIndent = 2;
+  WriteStored(experiment_folder / kSummaryFile, summary, kIndent);
 }
 
 }  // namespace vitruvia

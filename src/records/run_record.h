@@ -2,7 +2,7 @@
 //
 // An experiment's folder:
 //   experiment.json        ExperimentRecord: title, what the paper says, which runs belong to it
-//   summary.json           { "experiment", "rows": [ one flat object per run ] }
+//   summary.json           ExperimentSummary: one row per run, variants compared, failed runs
 //   <run id>/record.json   RunRecord
 //   <run id>/estimate/     see estimate.h
 //   <run id>/status, log   "done KEY", or "failed KEY" and why; the run's own messages
@@ -15,28 +15,28 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include "config/stored_data.h"
 
 namespace vitruvia {
 
 // A number that a paper prints, to be set beside ours.
 struct Expectation {
-  std::string metric;            // a key of the summary row
-  double paper = 0.0;            // published value; NaN: none
-  double at_most = 0.0;          // our target; NaN: none
-  std::string source;            // "paper A, figure 11"
-  std::string remark;            // how the work differs
-  std::string not_comparable{};  // why ours says nothing about the paper's; "": it does
-  double at_least = std::numeric_limits<double>::quiet_NaN();  // a target from the other side
-  std::vector<std::string> scenes{};                           // that it is about; empty: all
+  std::string metric;                 // a key of the summary row
+  double paper = kAbsent;             // published value
+  double at_most = kAbsent;           // our target
+  std::string source;                 // "paper A, figure 11"
+  std::string remark;                 // how the work differs
+  std::string not_comparable{};       // why ours says nothing about the paper's; "": it does
+  double at_least = kAbsent;          // a target from the other side
+  std::vector<std::string> scenes{};  // that it is about; empty: all
 
   bool IsAbout(const std::string& scene) const;
-
-  friend void to_json(nlohmann::json& json, const Expectation& e);
-  friend void from_json(const nlohmann::json& json, Expectation& e);
+  void Describe(Fields& fields);
 };
 
 struct RunRecord {
+  static constexpr StoredFormat kFormat{"vitruvia-record", 1, 0, "run the experiment again"};
+
   std::string run_id, experiment, variant, scene, method;
   int seed = 0;
   std::filesystem::path sequence_folder;  // relative to the experiment's folder
@@ -44,9 +44,9 @@ struct RunRecord {
   nlohmann::json config;      // resolved: { "scene": …, "method": … }
   nlohmann::json provenance;  // commit, compiler, flags, CPU, threads (core/build_info.h)
   nlohmann::json summary;     // the row: flat, metric → number or text
-  // Per frame, all of one length. At least: frame_ms, iterations, failed (0 or 1); where the
-  // sequence has true joints joint_error_mean_m, NaN in a frame without any; where it has a true
-  // surface l2_mean_m, l2_max_m, l2_mean_visible_m, l2_mean_hidden_m.
+  // Per frame, all of one length; NaN where a frame has no such value. At least: frame_ms,
+  // iterations, failed (0 or 1); where the sequence has true joints joint_error_mean_m; where it
+  // has a true surface l2_mean_m, l2_max_m, l2_mean_visible_m, l2_mean_hidden_m.
   std::map<std::string, std::vector<double>> frames;
   // Share of (frame, joint) pairs with an error of at most threshold_m[i], per class all / visible
   // / hidden; without classes that have no pair.
@@ -56,15 +56,20 @@ struct RunRecord {
   struct Step {
     std::string name;
     double median_ms = 0, p95_ms = 0, max_ms = 0;
-  };
-  std::vector<Step> steps;  // per frame, in the method's order
-  double diagonal_m = 0.0;  // of the true subject's rest-pose bounding box; 0: no true surface
 
-  friend void to_json(nlohmann::json& json, const RunRecord& r);
-  friend void from_json(const nlohmann::json& json, RunRecord& r);
+    void Describe(Fields& fields);
+  };
+  std::vector<Step> steps;      // per frame, in the method's order
+  double diagonal_m = kAbsent;  // of the true subject's rest-pose bounding box
+
+  void Describe(Fields& fields);
+  std::string Problem() const;
+  static void Upgrade(Json& file, int version);
 };
 
 struct ExperimentRecord {
+  static constexpr StoredFormat kFormat{"vitruvia-experiment", 1, 0, "run the experiment again"};
+
   std::string name;  // the config's path below configs/, e.g. "realtime_scape/fig11"
   std::string title, description;
   std::vector<Expectation> expectations;
@@ -73,8 +78,20 @@ struct ExperimentRecord {
   std::vector<std::string> run_ids;  // in the order of the grid; a missing run is reported as such
   std::map<std::string, std::string> failed_runs;  // run id → reason
 
-  friend void to_json(nlohmann::json& json, const ExperimentRecord& e);
-  friend void from_json(const nlohmann::json& json, ExperimentRecord& e);
+  void Describe(Fields& fields);
+};
+
+// The numbers of an experiment at a glance, for people and other programs.
+struct ExperimentSummary {
+  static constexpr StoredFormat kFormat{"vitruvia-summary", 1, 0, "run the experiment again"};
+
+  std::string experiment;
+  nlohmann::json variants = nlohmann::json::object();  // means of each variant, compared
+  std::map<std::string, std::string> failed_runs;      // run id → reason
+  std::vector<std::string> missing_runs;
+  nlohmann::json rows = nlohmann::json::array();  // RunRecord::summary of each finished run
+
+  void Describe(Fields& fields);
 };
 
 // DataError naming the file if it is missing, damaged or lacks a key.
@@ -83,5 +100,8 @@ RunRecord ReadRunRecord(const std::filesystem::path& experiment_folder, const st
 void WriteExperimentRecord(const std::filesystem::path& experiment_folder,
                            const ExperimentRecord& record);
 void WriteRunRecord(const std::filesystem::path& experiment_folder, const RunRecord& record);
+ExperimentSummary ReadSummary(const std::filesystem::path& experiment_folder);
+void WriteExperimentSummary(const std::filesystem::path& experiment_folder,
+                            const ExperimentSummary& summary);
 
 }  // namespace vitruvia

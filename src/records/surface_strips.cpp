@@ -3,7 +3,7 @@
 #include <bit>
 #include <cstring>
 
-#include "config/json_settings.h"
+#include "config/stored_data.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "geometry/mesh_io.h"
@@ -21,14 +21,16 @@ struct SurfaceEntry {
   SurfaceColor color = SurfaceColor::kEstimate;
 
   void Describe(Fields& f) {
-    f.Text("mesh", mesh, {.meaning = "mesh file", .required = true});
-    f.Text("values", values, {.meaning = "file of values per vertex"});
+    f.Text("mesh", mesh, {.meaning = "mesh file"});
+    f.Text("values", values,
+           {.meaning = "file of values per vertex; absent where the colour needs none",
+            .optional = true});
     f.Choice("color", color,
              {{"truth", SurfaceColor::kTruth},
               {"estimate", SurfaceColor::kEstimate},
               {"error", SurfaceColor::kError},
               {"bone", SurfaceColor::kBone}},
-             {.meaning = "what its colours show", .required = true});
+             {.meaning = "what the colours show"});
   }
 };
 
@@ -38,9 +40,11 @@ struct PanelEntry {
   std::vector<SurfaceEntry> surfaces;
 
   void Describe(Fields& f) {
-    f.Text("title", title, {.meaning = "title", .required = true});
-    f.Number("turn_deg", turn_deg, {.meaning = "about the vertical", .unit = "deg"});
-    f.List("surfaces", surfaces, {.meaning = "what is drawn", .required = true});
+    f.Text("title", title, {.meaning = "title of the panel"});
+    f.Number(
+        "turn_deg", turn_deg,
+        {.meaning = "rotation of the view about the vertical, 0 from the front", .unit = "deg"});
+    f.List("surfaces", surfaces, {.meaning = "surfaces that the panel draws"});
   }
 };
 
@@ -49,18 +53,18 @@ struct StripEntry {
   std::vector<PanelEntry> panels;
 
   void Describe(Fields& f) {
-    f.Text("label", label, {.meaning = "what the strip shows", .required = true});
-    f.Text("note", note, {.meaning = "more about it"});
-    f.List("panels", panels, {.meaning = "views", .required = true});
+    f.Text("label", label, {.meaning = "what the strip shows"});
+    f.Text("note", note, {.meaning = "remark on the strip", .optional = true});
+    f.List("panels", panels, {.meaning = "panels of the strip, from left to right"});
   }
 };
 
 struct StripsFile {
+  static constexpr StoredFormat kFormat{"vitruvia-surfaces", 1, 0, "run the experiment again"};
+
   std::vector<StripEntry> strips;
 
-  void Describe(Fields& f) {
-    f.List("strips", strips, {.meaning = "strips of panels", .required = true});
-  }
+  void Describe(Fields& f) { f.List("strips", strips, {.meaning = "strips of panels"}); }
 };
 
 std::vector<float> ReadValues(const fs::path& file, std::size_t count) {
@@ -115,13 +119,13 @@ void WriteSurfaceStrips(const fs::path& run_folder, const std::vector<SurfaceStr
       }
     }
   }
-  WriteWholeFile(staged.path() / kStripsFile, WriteSettings(file).dump(1) + "\n");
+  WriteStored(staged.path() / kStripsFile, file);
   staged.Commit();
 }
 
 std::vector<SurfaceStrip> ReadSurfaceStrips(const fs::path& run_folder) {
   const fs::path folder = run_folder / kFolder;
-  const auto file = ReadDataFile<StripsFile>(folder / kStripsFile);
+  const auto file = ReadStored<StripsFile>(folder / kStripsFile);
   std::vector<SurfaceStrip> strips;
   for (const StripEntry& strip : file.strips) {
     SurfaceStrip& read = strips.emplace_back(SurfaceStrip{strip.label, strip.note, {}});

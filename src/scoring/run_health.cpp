@@ -8,39 +8,57 @@
 namespace vitruvia {
 namespace {
 
-// A frame is lost when the tracker says so or when what the camera could see of the surface is this
-// far off on average. Without a true surface nobody can say.
+// A frame is lost when the tracker says so, or when the mean error of the visible surface exceeds
+// this.
 constexpr double kLostAbove_m = 0.05;
 
-// How often the subject was lost, and how many frames it took at the longest to find it again; -1
-// if it was not found again before the end.
+enum class FrameState { kTracked, kLost, kUnknown };
+
+// Where nothing of the surface is visible, its error is absent and nobody can say whether the
+// tracker follows it.
+FrameState StateOf(double failed, double visible_error_m) {
+  if (failed > 0.0) return FrameState::kLost;
+  if (std::isnan(visible_error_m)) return FrameState::kUnknown;
+  return visible_error_m > kLostAbove_m ? FrameState::kLost : FrameState::kTracked;
+}
+
+// frames_lost: lost frames. frames_to_recover: the most lost frames between two tracked ones; -1 if
+// the subject was not found again before the end. Both only where there is a true surface.
 void SummarizeLosses(const RunRecord& record, nlohmann::json& row) {
   if (!record.frames.contains("l2_mean_visible_m")) return;
   const auto& failed = record.frames.at("failed");
   const auto& error_m = record.frames.at("l2_mean_visible_m");
   int lost = 0, run = 0, longest = 0;
   for (std::size_t i = 0; i < failed.size(); ++i) {
-    run = failed[i] > 0.0 || error_m[i] > kLostAbove_m ? run + 1 : 0;
-    lost += run > 0 ? 1 : 0;
+    const FrameState state = StateOf(failed[i], error_m[i]);
+    if (state == FrameState::kLost) ++lost, ++run;
+    if (state == FrameState::kTracked) run = 0;
     longest = std::max(longest, run);
   }
   row["frames_lost"] = lost;
   row["frames_to_recover"] = run > 0 ? -1 : longest;
 }
 
-// Everything stored that is no number. Vertices and joints cannot be: neither writer nor reader of
-// estimates lets them pass; so a joint error that is none only says that no true joint was known.
-int NonFinite(const RunRecord& record) {
+// Infinite numbers of all frames. NaN says that a value is absent and does not count; a tracker's
+// NaN cannot get here, since estimates refuse it.
+int CountInfinite(const RunRecord& record) {
   int count = 0;
   for (const auto& [name, values] : record.frames) {
-    if (name.starts_with("joint_error_")) continue;
     count += static_cast<int>(
-        std::count_if(values.begin(), values.end(), [](double v) { return !std::isfinite(v); }));
+        std::count_if(values.begin(), values.end(), [](double v) { return std::isinf(v); }));
   }
   return count;
 }
 
-// Sums of many terms differ by rounding; that is no rise.
+void SummarizeMaximum(const RunRecord& record, const char* series, const char* key,
+                      nlohmann::json& row) {
+  const auto found = record.frames.find(series);
+  if (found == record.frames.end()) return;
+  const std::vector<double> values = PresentValues(found->second);
+  if (!values.empty()) row[key] = Maximum(values);
+}
+
+// Sums of many terms differ by rounding, which is not a rise.
 constexpr double kRiseAbove = 1e-9;
 
 void SummarizeEnergies(const RunRecord& record, nlohmann::json& row) {
@@ -49,22 +67,22 @@ void SummarizeEnergies(const RunRecord& record, nlohmann::json& row) {
   for (const auto& [name, values] : record.frames) {
     if (!name.starts_with("energy_") || name == "energy_rise") continue;
     has_energies = true;
-    sum += Mean(values);
+    sum += Mean(PresentValues(values));
   }
   if (has_energies) row["energy_mean"] = sum;
-  const std::vector<double>& rise = record.frames.at("energy_rise");
-  if (Maximum(rise) < 0.0) return;  // nobody looked
-  row["energy_rises"] =
-      std::count_if(rise.begin(), rise.end(), [](double share) { return share > kRiseAbove; });
-  row["energy_rise_max"] = Maximum(rise);
+  const auto rise = record.frames.find("energy_rise");
+  if (rise == record.frames.end()) return;
+  row["energy_rises"] = std::count_if(rise->second.begin(), rise->second.end(),
+                                      [](double share) { return share > kRiseAbove; });
+  SummarizeMaximum(record, "energy_rise", "energy_rise_max", row);
 }
 
 }  // namespace
 
 void SummarizeHealth(const RunRecord& record, nlohmann::json& row) {
-  row["condition_max"] = Maximum(record.frames.at("condition"));
-  row["rotation_drift_max"] = Maximum(record.frames.at("rotation_drift"));
-  row["non_finite"] = NonFinite(record);
+  SummarizeMaximum(record, "condition", "condition_max", row);
+  SummarizeMaximum(record, "rotation_drift", "rotation_drift_max", row);
+  row["non_finite"] = CountInfinite(record);
   SummarizeLosses(record, row);
   SummarizeEnergies(record, row);
 }

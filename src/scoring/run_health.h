@@ -1,15 +1,17 @@
-// Whether a run kept its footing: numbers that are none, rotations that are none, energies that
-// rose, frames lost and found again.
+// Numerical and loss diagnostics of a run: infinite values, condition, drift, energies, lost
+// frames.
 #pragma once
 
 #include "records/run_record.h"
 
 namespace vitruvia {
 
-// Adds to the row, from the record's frames: frames_lost, frames_to_recover (both only where the
-// true surface is known), non_finite, condition_max, rotation_drift_max, energy_mean (of all terms
-// together, where there are any) and, where steps were watched, energy_rises (frames) and
-// energy_rise_max (share).
+// Adds to the row, each only where the record's frames hold what it is computed from:
+//   frames_lost, frames_to_recover   where the true surface is known
+//   non_finite                       number of infinite values in all series
+//   condition_max, rotation_drift_max
+//   energy_mean                      sum over the terms of each term's mean over its frames
+//   energy_rises, energy_rise_max    frames in which a step raised the energy; the largest share
 void SummarizeHealth(const RunRecord& record, nlohmann::json& row);
 
 }  // namespace vitruvia

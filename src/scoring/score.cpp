@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.h"
 #include "math/statistics.h"
@@ -19,27 +20,41 @@ void RequireSameFrames(const SequenceReader& sequence, const EstimateReader& est
                               sequence.info().frames));
 }
 
+constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
+
 void RecordOutcomes(const EstimateReader& estimate, RunRecord& record) {
-  for (const FrameEstimate& frame : estimate.frames()) {
-    record.frames["frame_ms"].push_back(frame.frame_ms);
-    record.frames["iterations"].push_back(frame.iterations);
-    record.frames["failed"].push_back(IsFailure(frame.outcome) ? 1.0 : 0.0);
-    record.frames["condition"].push_back(frame.condition);
-    record.frames["rotation_drift"].push_back(frame.rotation_drift);
-    record.frames["energy_rise"].push_back(frame.energy_rise);
-    for (const NamedValue& energy : frame.energies)
-      record.frames["energy_" + energy.name].push_back(energy.value);
+  const std::size_t count = estimate.frames().size();
+  // A series exists if any frame has the value; frames without it hold NaN.
+  const auto put = [&](const std::string& name, std::size_t frame, double value) {
+    if (std::isnan(value)) return;
+    record.frames.try_emplace(name, count, kAbsent).first->second[frame] = value;
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    const FrameEstimate& frame = estimate.frames()[i];
+    put("frame_ms", i, frame.frame_ms);
+    put("iterations", i, frame.iterations);
+    put("failed", i, IsFailure(frame.outcome) ? 1.0 : 0.0);
+    put("condition", i, frame.condition);
+    put("rotation_drift", i, frame.rotation_drift);
+    put("energy_rise", i, frame.energy_rise);
+    for (const NamedValue& energy : frame.energies) put("energy_" + energy.name, i, energy.value);
   }
 }
 
+// Times of each step over the frames that carried it out, in the order of first appearance.
 std::vector<RunRecord::Step> StepTimes(const EstimateReader& estimate) {
-  std::vector<RunRecord::Step> steps;
-  for (std::size_t k = 0; k < estimate.frames().front().step_ms.size(); ++k) {
-    std::vector<double> ms;
-    for (const FrameEstimate& frame : estimate.frames()) ms.push_back(frame.step_ms.at(k).value);
-    steps.push_back({estimate.frames().front().step_ms[k].name, Quantile(ms, 0.5),
-                     Quantile(ms, 0.95), Maximum(ms)});
+  std::vector<std::pair<std::string, std::vector<double>>> times;
+  for (const FrameEstimate& frame : estimate.frames()) {
+    for (const NamedValue& step : frame.step_ms) {
+      const auto same_name = [&](const auto& known) { return known.first == step.name; };
+      auto found = std::find_if(times.begin(), times.end(), same_name);
+      if (found == times.end()) found = times.insert(times.end(), {step.name, {}});
+      found->second.push_back(step.value);
+    }
   }
+  std::vector<RunRecord::Step> steps;
+  for (const auto& [name, ms] : times)
+    steps.push_back({name, Quantile(ms, 0.5), Quantile(ms, 0.95), Maximum(ms)});
   return steps;
 }
 

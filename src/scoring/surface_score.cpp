@@ -98,7 +98,8 @@ class ReconstructionWatch {
         Chosen(estimate, VisiblePoints(estimate, seen, camera_, kVisibleWithin_m));
     CloudFromDepth(sequence_.ReadDepth(frame), camera_, 1, std::numeric_limits<float>::infinity(),
                    cloud_);
-    Append(DistancesToPoints(visible, cloud_.points), to_observed_m_);
+    if (!cloud_.points.empty())  // a frame without measurement has nothing to compare with
+      Append(DistancesToPoints(visible, cloud_.points), to_observed_m_);
     if (truth != nullptr) Append(DistancesToSurface(visible, *truth), to_truth_m_);
   }
 
@@ -151,10 +152,15 @@ void RecordErrors(const std::vector<Vector3f>& estimated, const std::vector<Vect
 void SummarizeErrors(RunRecord& record) {
   nlohmann::json& row = record.summary;
   row["diagonal_m"] = record.diagonal_m;
-  for (const char* key : {"l2_mean_m", "l2_mean_visible_m", "l2_mean_hidden_m"})
-    row[key] = Mean(record.frames.at(key));
-  for (const char* key : {"l2_max_m", "l2_max_visible_m", "l2_max_hidden_m"})
-    row[key] = Maximum(record.frames.at(key));
+  // Over the frames in which there is such a vertex; absent if there is none in any frame.
+  for (const char* key : {"l2_mean_m", "l2_mean_visible_m", "l2_mean_hidden_m"}) {
+    const std::vector<double> means_m = PresentValues(record.frames.at(key));
+    if (!means_m.empty()) row[key] = Mean(means_m);
+  }
+  for (const char* key : {"l2_max_m", "l2_max_visible_m", "l2_max_hidden_m"}) {
+    const std::vector<double> maxima_m = PresentValues(record.frames.at(key));
+    if (!maxima_m.empty()) row[key] = Maximum(maxima_m);
+  }
   row["l2_mean_of_diagonal"] = Mean(record.frames.at("l2_mean_m")) / record.diagonal_m;
   row["l2_max_of_diagonal"] = Maximum(record.frames.at("l2_max_m")) / record.diagonal_m;
 }

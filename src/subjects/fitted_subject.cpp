@@ -79,8 +79,8 @@ BodyModel ObtainFittedSubject(SubjectRecipe recipe, const SceneSettings& scene,
   recipe.scan.scene.body = scene.body;
   recipe.scan.scene.truth = scene.truth;
   const Json resolved = ResolvedRecipe(recipe);
-  const KeptFolder kept(cache, "subject", resolved);
-  kept.Obtain([&](const fs::path& folder) {
+  const CachedFolder kept(cache, "subject", resolved);
+  kept.GetOrBuild([&](const fs::path& folder) {
     const LearnedModel model = ObtainLearnedModel(recipe.learning, cache);
     const ScanResult scan = Scan(recipe.scan);
     Require(scan.truth.has_value(), "ObtainFittedSubject: a scan without a person");

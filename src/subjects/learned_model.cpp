@@ -79,8 +79,8 @@ LearnedModel LearnModel(const BodyDatabase& database, const LearningSettings& se
 }
 
 LearnedModel ObtainLearnedModel(const LearningSettings& settings, const fs::path& cache) {
-  const KeptFolder kept(cache, "model", WriteSettings(settings));
-  kept.Obtain([&](const fs::path& folder) {
+  const CachedFolder kept(cache, "model", WriteSettings(settings));
+  kept.GetOrBuild([&](const fs::path& folder) {
     WriteShapeSpace(folder, LearnModel(MakeDatabase(settings.database), settings).space);
   });
   LearnedModel model;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "config/json_settings.h"
+#include "config/did_you_mean.h"
 #include "core/error.h"
 
 namespace vitruvia {

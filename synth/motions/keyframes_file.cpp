@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "config/did_you_mean.h"
 #include "config/json_settings.h"
 #include "config/settings_schema.h"
 #include "core/error.h"
@@ -70,9 +71,8 @@ std::string KeyFrameSettings::Problem() const {
       if (std::count(planted.begin(), planted.end(), name) == 1) continue;
       return fmt::format("planted names \"{}\" twice", name);
     }
-    const std::string nearest = NearestWord(name, {kSupportNames.begin(), kSupportNames.end()});
     return fmt::format("planted: expected any of {}; got \"{}\"{}", fmt::join(kSupportNames, ", "),
-                       name, nearest.empty() ? "" : fmt::format(", did you mean \"{}\"?", nearest));
+                       name, DidYouMean(name, {kSupportNames.begin(), kSupportNames.end()}, ", "));
   }
   return "";
 }
@@ -146,11 +146,9 @@ KeyFrame Resolved(const KeyFrameSettings& settings, const std::vector<NamedPose>
     for (const NamedPose& pose : poses) names.push_back(pose.name);
     const auto found = std::find(names.begin(), names.end(), settings.pose);
     if (found == names.end()) {
-      const std::string nearest = NearestWord(settings.pose, names);
       throw ConfigError(
           fmt::format("{}.pose: expected the name of a pose in this file ({}), got \"{}\"{}", where,
-                      fmt::join(names, ", "), settings.pose,
-                      nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest)));
+                      fmt::join(names, ", "), settings.pose, DidYouMean(settings.pose, names)));
     }
     poses[static_cast<std::size_t>(found - names.begin())].angles.ApplyTo(key.angles);
   }

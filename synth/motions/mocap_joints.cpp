@@ -4,7 +4,7 @@
 #include <cctype>
 #include <optional>
 
-#include "config/json_settings.h"
+#include "config/did_you_mean.h"
 #include "core/error.h"
 #include "synth/motions/mocap_rigs.h"
 

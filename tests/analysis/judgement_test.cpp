@@ -190,7 +190,7 @@ TEST(GateFiles, AreReadAsWritten) {
   EXPECT_EQ(again.commit, "base000");
   EXPECT_EQ(again.renewals.at(0).reason, "the first");
   ASSERT_NE(again.Find(kWalk), nullptr);
-  EXPECT_EQ(ToJson(*again.Find(kWalk)), ToJson(baseline.runs[0]));
+  EXPECT_EQ(StoredJson(*again.Find(kWalk)), StoredJson(baseline.runs[0]));
   WriteHistory(folder / "history.json", {Entry("aaa", 0.01)});
   EXPECT_EQ(ReadHistory(folder / "history.json").at(0).commit, "aaa");
   EXPECT_THAT(ReadHistory(folder / "none.json"), IsEmpty());
@@ -216,7 +216,7 @@ TEST(GateReports, NameRunMetricWasIsToleranceAndBlame) {
   EXPECT_THAT(junit, HasSubstr("x&lt;y&gt;"));
   EXPECT_EQ(Count(junit, "<testcase"), 3u);
   EXPECT_EQ(Count(junit, "</testcase>"), 3u);
-  const nlohmann::json json = ToJson(occasion, judgement);
+  const nlohmann::json json = StoredJson(MakeRegressionFile(occasion, judgement));
   EXPECT_EQ(json.at("exit_code"), 4);
   EXPECT_EQ(json.at("findings").size(), 5u);
 }

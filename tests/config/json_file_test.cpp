@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "config/did_you_mean.h"
 #include "config/json_settings.h"
 #include "core/error.h"
 #include "core/files.h"

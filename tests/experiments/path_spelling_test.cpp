@@ -45,8 +45,8 @@ class PathSpelling : public testing::Test {
   };
   static Identity IdentityOf(const fs::path& experiment) {
     const RunPlan run = PlanExperiment(experiment).runs.at(0);
-    const KeptFolder sequence("cache", run.scene, WriteSettings(run.scene_settings));
-    return {run.run_id, WorkKey(run.resolved), sequence.path().string()};
+    const CachedFolder sequence("cache", run.scene, WriteSettings(run.scene_settings));
+    return {run.run_id, CacheKey(run.resolved), sequence.path().string()};
   }
 
   SmallExperiment files_;

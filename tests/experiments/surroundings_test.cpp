@@ -203,7 +203,7 @@ TEST(RunPlans, ComeBackAsTheyWereFromTheStoredForm) {
       EXPECT_EQ(WriteSettings(read.score), resolved.at("score")) << entry.path();
       if (read.subject) EXPECT_EQ(ResolvedRecipe(*read.subject), resolved.at("subject"));
       EXPECT_EQ(read.faults.AreNone(), !resolved.contains("faults")) << entry.path();
-      EXPECT_EQ(WorkKey(read.resolved), planned.key) << entry.path();
+      EXPECT_EQ(CacheKey(read.resolved), planned.key) << entry.path();
       ++runs;
     }
   }

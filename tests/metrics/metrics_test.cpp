@@ -64,6 +64,17 @@ TEST(Summarize, SplitsByVisibility) {
   EXPECT_EQ(summary.hidden_max_m, 6.0);
 }
 
+TEST(Summarize, ErrorOverNoVerticesIsNotANumber) {
+  const VertexErrorSummary all_hidden = Summarize({1.0, 3.0}, {false, false});
+  EXPECT_EQ(all_hidden.mean_m, 2.0);
+  EXPECT_EQ(all_hidden.hidden_max_m, 3.0);
+  EXPECT_TRUE(std::isnan(all_hidden.visible_mean_m));
+  EXPECT_TRUE(std::isnan(all_hidden.visible_max_m));
+  const VertexErrorSummary all_visible = Summarize({1.0, 3.0}, {true, true});
+  EXPECT_TRUE(std::isnan(all_visible.hidden_mean_m));
+  EXPECT_TRUE(std::isnan(all_visible.hidden_max_m));
+}
+
 TEST(VisiblePoints, AreThoseInTheImageAndNotBehindTheSurface) {
   const PinholeCamera camera;
   DepthImage depth(camera.width, camera.height, 2.0f);

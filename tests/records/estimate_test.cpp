@@ -1,5 +1,6 @@
 #include "records/estimate.h"
 
+#include <cmath>
 #include <fstream>
 #include <limits>
 
@@ -95,7 +96,7 @@ TEST_F(EstimateTest, RefusesResultsThatCannotBeStored) {
   result = Result(0.0f, Outcome::kConverged);
   result.energies[0].value = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT([&] { writer.Append(result, 1.0); }, testing::ThrowsMessage<std::invalid_argument>(
-                                                       HasSubstr("frame 0: energy data = nan")));
+                                                       HasSubstr("frame 0: energies.data = nan")));
 }
 
 TEST_F(EstimateTest, DamagedOnesAreRefusedWithTheReason) {
@@ -120,12 +121,19 @@ TEST_F(EstimateTest, DamagedOnesAreRefusedWithTheReason) {
   auto damaged = whole;
   damaged["frames"][1].erase("joints");
   WriteWholeFile(index, damaged.dump());
-  EXPECT_EQ(message(), index.string() + ": frames[1].joints: key missing");
+  EXPECT_EQ(message(), index.string() +
+                           ": frames[1].joints: missing; expected: proximal end of "
+                           "each bone, camera frame");
   damaged = whole;
   damaged["frames"][0]["outcome"] = "fine";
   WriteWholeFile(index, damaged.dump());
-  EXPECT_EQ(message(),
-            index.string() + ": frames[0].outcome: expected the name of an outcome, got \"fine\"");
+  EXPECT_THAT(message(), HasSubstr(index.string() + ": frames[0].outcome: expected one of "));
+  damaged = whole;
+  damaged["frames"][0]["condition"] = nullptr;  // an absent number has no key
+  damaged["frames"][1]["iteration"] = 3;
+  WriteWholeFile(index, damaged.dump());
+  EXPECT_THAT(message(), HasSubstr("frames[1].iteration: unknown key (value 3); did you mean "
+                                   "\"iterations\"?"));
   damaged = whole;
   damaged["frames"][0]["energies"][0] = {"data", nullptr};
   WriteWholeFile(index, damaged.dump());
@@ -134,6 +142,45 @@ TEST_F(EstimateTest, DamagedOnesAreRefusedWithTheReason) {
   damaged["vertex_count"] = 5;
   WriteWholeFile(index, damaged.dump());
   EXPECT_THAT(message(), HasSubstr("vertex_count: expected the 4 vertices of mesh.ply, got 5"));
+}
+
+TEST_F(EstimateTest, InfiniteAndAbsentNumbersAreStoredByThePolicy) {
+  WriteTwoFrames();
+  const auto frames = nlohmann::json::parse(ReadWholeFile(folder_ / "estimate.json")).at("frames");
+  EXPECT_EQ(frames[0].at("condition"), 17.0);
+  EXPECT_EQ(frames[1].at("condition"), "Infinity");
+  EXPECT_FALSE(frames[0].contains("energy_rise"));  // nobody watched the energy
+  EXPECT_TRUE(std::isnan(EstimateReader(folder_).frames()[0].energy_rise));
+}
+
+// As version 1 wrote it: null for infinity, −1 for what was not computed.
+TEST_F(EstimateTest, VersionOneIsReadCompletelyOrRefused) {
+  WriteTwoFrames();
+  const fs::path index = folder_ / "estimate.json";
+  auto old = nlohmann::json::parse(ReadWholeFile(index));
+  old["version"] = 1;
+  old["frames"][0]["energy_rise"] = -1.0;
+  old["frames"][1]["condition"] = nullptr;
+  old["frames"][1]["energy_rise"] = 0.25;
+  WriteWholeFile(index, old.dump());
+  const EstimateReader reader(folder_);
+  EXPECT_TRUE(std::isnan(reader.frames()[0].energy_rise));
+  EXPECT_EQ(reader.frames()[0].condition, 17.0);
+  EXPECT_EQ(reader.frames()[1].condition, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(reader.frames()[1].energy_rise, 0.25);
+  old["frames"][1].erase("rotation_drift");
+  WriteWholeFile(index, old.dump());
+  EXPECT_THAT(
+      [&] { EstimateReader again(folder_); },
+      testing::ThrowsMessage<DataError>(testing::AllOf(
+          HasSubstr("frames[1].rotation_drift: missing"),
+          HasSubstr("an older version of vitruvia wrote"), HasSubstr("run the experiment again"))));
+  old["version"] = 3;
+  WriteWholeFile(index, old.dump());
+  EXPECT_THAT([&] { EstimateReader again(folder_); },
+              testing::ThrowsMessage<DataError>(
+                  index.string() +
+                  ": version 3: a newer version of vitruvia wrote the file; this one reads 2"));
 }
 
 TEST_F(EstimateTest, NotANumberInTheVerticesIsFoundWhenTheyAreRead) {

@@ -6,7 +6,7 @@
 #include <set>
 #include <span>
 
-#include "config/json_settings.h"
+#include "config/stored_data.h"
 #include "core/error.h"
 #include "core/files.h"
 
@@ -18,8 +18,6 @@ constexpr const char* kDatabaseFile = "database.json";
 constexpr const char* kVerticesFile = "vertices.bin";
 constexpr const char* kReferenceFolder = "reference";
 constexpr const char* kPosesFolder = "poses";
-constexpr const char* kDatabaseFormat = "vitruvia-database";
-constexpr int kDatabaseVersion = 1;
 
 static_assert(std::endian::native == std::endian::little, "vertices are copied as they lie");
 static_assert(sizeof(Vector3f) == 3 * sizeof(float));
@@ -35,45 +33,32 @@ struct SubjectEntry {
   Skeleton skeleton;
 
   void Describe(Fields& f) {
-    f.Text("name", name, {.meaning = "name of the subject", .required = true});
+    f.Text("name", name, {.meaning = "name of the subject"});
     f.Number("height_m", attributes.height_m,
-             {.meaning = "height", .unit = "m", .min = 0.0, .max = 3.0, .required = true});
+             {.meaning = "height of the person", .unit = "m", .min = 0.0, .max = 3.0});
     f.Number("weight_kg", attributes.weight_kg,
-             {.meaning = "weight", .unit = "kg", .min = 0.0, .max = 500.0, .required = true});
+             {.meaning = "weight of the person", .unit = "kg", .min = 0.0, .max = 500.0});
     f.Choice("sex", attributes.sex, {{"female", Sex::kFemale}, {"male", Sex::kMale}},
-             {.meaning = "sex", .required = true});
+             {.meaning = "sex of the person"});
     f.Numbers("joints_m", Flat(skeleton.joints),
-              {.meaning = "proximal ends of the bones, x y z each", .unit = "m", .required = true});
+              {.meaning = "proximal ends of the bones, x y z each, subject frame", .unit = "m"});
     f.Numbers("tips_m", Flat(skeleton.tips),
-              {.meaning = "distal ends of the bones", .unit = "m", .required = true});
+              {.meaning = "distal ends of the bones, x y z each, subject frame", .unit = "m"});
   }
 };
 
 struct DatabaseHeader {
-  std::string format = kDatabaseFormat;
-  int version = kDatabaseVersion;
+  static constexpr StoredFormat kFormat{"vitruvia-database", 1, 1, "make the database again"};
+
   std::vector<SubjectEntry> subjects;
   Json provenance = Json::object();
 
   void Describe(Fields& f) {
-    f.Text("format", format, {.meaning = "must be vitruvia-database", .required = true});
-    f.Integer("version", version,
-              {.meaning = "version of this format",
-               .min = kDatabaseVersion,
-               .max = kDatabaseVersion,
-               .required = true});
-    f.List("subjects", subjects,
-           {.meaning = "the people, in the order of vertices.bin", .required = true});
-    f.FreeJson("provenance", provenance, {.meaning = "how the database was made"});
+    f.List("subjects", subjects, {.meaning = "the people, in the order of vertices.bin"});
+    f.FreeJson("provenance", provenance,
+               {.meaning = "how the database was made", .optional = true});
   }
 };
-
-DatabaseHeader ReadDatabaseHeader(const fs::path& file) {
-  auto header = ReadDataFile<DatabaseHeader>(file);
-  if (header.format == kDatabaseFormat) return header;
-  throw DataError(fmt::format("{}: format \"{}\", expected \"{}\"", file.string(), header.format,
-                              kDatabaseFormat));
-}
 
 // A file of whole frames of `vertex_count` vertices.
 std::vector<std::vector<Vector3f>> ReadVertexFrames(const fs::path& file,
@@ -155,7 +140,7 @@ void WriteBodyDatabase(const fs::path& folder, const BodyDatabase& database) {
     header.subjects.push_back({subject.name, subject.attributes, subject.skeleton});
     Append(subject.vertices, vertices);
   }
-  WriteWholeFile(staged.path() / kDatabaseFile, WriteSettings(header).dump() + "\n");
+  WriteStored(staged.path() / kDatabaseFile, header, -1);
   WriteWholeFile(staged.path() / kVerticesFile, vertices);
   WriteBodyModel(staged.path() / kReferenceFolder, database.reference);
   if (!database.examples.empty()) MakeFolder(staged.path() / kPosesFolder);
@@ -168,7 +153,7 @@ void WriteBodyDatabase(const fs::path& folder, const BodyDatabase& database) {
 }
 
 BodyDatabase ReadBodyDatabase(const fs::path& folder) {
-  const DatabaseHeader header = ReadDatabaseHeader(folder / kDatabaseFile);
+  const DatabaseHeader header = ReadStored<DatabaseHeader>(folder / kDatabaseFile);
   BodyDatabase database;
   database.provenance = header.provenance;
   database.reference = ReadBodyModel(folder / kReferenceFolder);

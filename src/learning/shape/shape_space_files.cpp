@@ -2,7 +2,7 @@
 #include <bit>
 #include <cstring>
 
-#include "config/json_settings.h"
+#include "config/stored_data.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "learning/shape/shape_space.h"
@@ -12,8 +12,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kSpaceFile = "space.json";
-constexpr const char* kSpaceFormat = "vitruvia-shape-space";
-constexpr int kSpaceVersion = 1;
 
 static_assert(std::endian::native == std::endian::little, "matrices are copied as they lie");
 
@@ -38,35 +36,21 @@ Matrix ReadMatrix(const fs::path& file, Eigen::Index rows, Eigen::Index columns)
 }
 
 struct SpaceHeader {
-  std::string format = kSpaceFormat;
-  int version = kSpaceVersion;
+  static constexpr StoredFormat kFormat{"vitruvia-shape-space", 1, 1, "learn the space again"};
+
   int components = 0;
 
   void Describe(Fields& f) {
-    f.Text("format", format, {.meaning = "must be vitruvia-shape-space", .required = true});
-    f.Integer("version", version,
-              {.meaning = "version of this format",
-               .min = kSpaceVersion,
-               .max = kSpaceVersion,
-               .required = true});
     f.Integer("components", components,
-              {.meaning = "principal components", .min = 1, .max = 10000, .required = true});
+              {.meaning = "principal components", .min = 1, .max = 10000});
   }
 };
-
-SpaceHeader ReadSpaceHeader(const fs::path& file) {
-  auto header = ReadDataFile<SpaceHeader>(file);
-  if (header.format == kSpaceFormat) return header;
-  throw DataError(fmt::format("{}: format \"{}\", expected \"{}\"", file.string(), header.format,
-                              kSpaceFormat));
-}
 
 }  // namespace
 
 void WriteShapeSpace(const fs::path& folder, const ShapeSpace& space) {
   StagedFolder staged(folder, kSpaceFile);
-  const SpaceHeader header{.components = space.components()};
-  WriteWholeFile(staged.path() / kSpaceFile, WriteSettings(header).dump(2) + "\n");
+  WriteStored(staged.path() / kSpaceFile, SpaceHeader{space.components()}, 2);
   WriteMatrix(staged.path() / "mean.bin", space.mean);
   WriteMatrix(staged.path() / "basis.bin", space.basis);
   WriteMatrix(staged.path() / "joint_mean.bin", space.joint_mean);
@@ -81,7 +65,7 @@ void WriteShapeSpace(const fs::path& folder, const ShapeSpace& space) {
 }
 
 ShapeSpace ReadShapeSpace(const fs::path& folder) {
-  const Eigen::Index components = ReadSpaceHeader(folder / kSpaceFile).components;
+  const Eigen::Index components = ReadStored<SpaceHeader>(folder / kSpaceFile).components;
   ShapeSpace space;
   space.reference = ReadBodyModel(folder / "reference");
   const auto coordinates = static_cast<Eigen::Index>(3 * space.reference.rest.vertices.size());

@@ -7,15 +7,11 @@
 #include <fmt/format.h>
 
 #include "body/skeleton.h"
+#include "config/did_you_mean.h"
 #include "config/json_settings.h"
 
 namespace vitruvia::dynamic {
 namespace {
-
-std::string DidYouMean(const std::string& word, const std::vector<std::string>& known) {
-  const std::string nearest = NearestWord(word, known);
-  return nearest.empty() ? "" : fmt::format("; did you mean \"{}\"?", nearest);
-}
 
 std::vector<std::string> JointNames() {
   std::vector<std::string> names;

@@ -17,7 +17,7 @@ struct FakeRuns {
 };
 
 // What runs that "share" share.
-inline KeptFolder SharedWork(const std::filesystem::path& place) {
+inline CachedFolder SharedWork(const std::filesystem::path& place) {
   return {place / "shared", "work", {{"of", "all"}}};
 }
 

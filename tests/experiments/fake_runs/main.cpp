@@ -70,7 +70,7 @@ RunRecord Work(const PlannedRun& run, const fs::path& run_folder) {
   }
   if (does == "meet") Meet(run, place, run_folder.parent_path());
   if (does == "share") {
-    SharedWork(place).Obtain([&](const fs::path& folder) {
+    SharedWork(place).GetOrBuild([&](const fs::path& folder) {
       MakeFolder(folder);
       Note(place / "diary", "shared");
     });

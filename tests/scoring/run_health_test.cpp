@@ -15,8 +15,7 @@ RunRecord Record() {
                    {"condition", {10, 20, 90, 30, 30, 30, 30, 30}},
                    {"rotation_drift", {0, 0, 1e-16, 0, 0, 0, 0, 2e-16}},
                    {"energy_fit", {1, 1, 1, 1, 1, 1, 1, 9}},
-                   {"energy_joint", {2, 2, 2, 2, 2, 2, 2, 2}},
-                   {"energy_rise", {-1, -1, -1, -1, -1, -1, -1, -1}}};
+                   {"energy_joint", {2, 2, 2, 2, 2, 2, 2, 2}}};
   return record;
 }
 
@@ -35,13 +34,33 @@ TEST(RunHealth, CountsLostFramesUntilTheSubjectIsFoundAgain) {
   EXPECT_EQ(row.at("frames_to_recover"), -1);
 }
 
-TEST(RunHealth, CountsWhatIsNoNumber) {
+TEST(RunHealth, FrameWithoutVisibleSurfaceIsNeitherLostNorFoundAgain) {
+  constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
+  RunRecord record = Record();  // lost in frames 2 to 4
+  record.frames["l2_mean_visible_m"][5] = kAbsent;
+  nlohmann::json row;
+  SummarizeHealth(record, row);
+  EXPECT_EQ(row.at("frames_lost"), 3);
+  EXPECT_EQ(row.at("frames_to_recover"), 3);
+  for (std::size_t frame = 5; frame < 8; ++frame)
+    record.frames["l2_mean_visible_m"][frame] = kAbsent;
+  SummarizeHealth(record, row);
+  EXPECT_EQ(row.at("frames_lost"), 3);
+  EXPECT_EQ(row.at("frames_to_recover"), -1);  // nobody saw the tracker find the subject again
+  record.frames["failed"][6] = 1.0;
+  SummarizeHealth(record, row);
+  EXPECT_EQ(row.at("frames_lost"), 4);
+}
+
+TEST(RunHealth, CountsInfiniteNumbersAndNotAbsentOnes) {
   RunRecord record = Record();
   record.frames["condition"][1] = std::numeric_limits<double>::infinity();
   record.frames["energy_fit"][1] = std::numeric_limits<double>::quiet_NaN();
   nlohmann::json row;
   SummarizeHealth(record, row);
-  EXPECT_EQ(row.at("non_finite"), 2);
+  EXPECT_EQ(row.at("non_finite"), 1);
+  EXPECT_EQ(row.at("condition_max"), std::numeric_limits<double>::infinity());
+  EXPECT_NEAR(row.at("energy_mean"), 15.0 / 7.0 + 2.0, 1e-12);  // fit: of seven frames
 }
 
 TEST(RunHealth, TellsOfEnergyWhereSomebodyLooked) {

@@ -1,0 +1,122 @@
+#include "scoring/score.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+
+#include "body/skeleton.h"
+#include "support/temporary_folder.h"
+#include "support/tiny_body.h"
+
+namespace vitruvia {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kFrames = 3, kFrameOutOfView = 1;
+constexpr float kError_m = 0.01f;
+
+// A body that stands before the camera in the first and the last of three frames. In between it is
+// beside the image, and that depth frame is empty.
+class Score : public testing::Test {
+ protected:
+  Score() {
+    info_.camera = {32, 24, 20.0, 20.0, 15.5, 11.5};
+    info_.frames = kFrames;
+    info_.joints = {"neck"};
+    SequenceWriter writer(SequenceFolder(), info_, body_, body_.rest);
+    for (int frame = 0; frame < kFrames; ++frame) {
+      const DepthImage depth(32, 24, frame == kFrameOutOfView ? 0.0f : 3.0f);
+      writer.Append(depth, TrueVertices(frame), {{{0.0, 0.0, 3.0}}, {false}});
+    }
+    writer.Finish();
+  }
+
+  std::filesystem::path SequenceFolder() const { return folder_ / "sequence"; }
+
+  std::vector<Vector3f> TrueVertices(int frame) const {
+    std::vector<Vector3f> vertices = body_.rest.vertices;
+    for (Vector3f& v : vertices)
+      v += Vector3f(frame == kFrameOutOfView ? 100.0f : 0.0f, -1.0f, 3.0f);
+    return vertices;
+  }
+
+  TrackResult Result(int frame) const {
+    TrackResult result;
+    result.outcome = Outcome::kConverged;
+    result.vertices = TrueVertices(frame);
+    for (Vector3f& v : result.vertices) v.x() += kError_m;
+    result.joints.assign(kBoneCount, Vector3<double>(0.0, 0.0, 3.0));
+    result.condition = 10.0;
+    return result;
+  }
+
+  // The record of an estimate, written and read back.
+  RunRecord Scored(const std::vector<TrackResult>& results, const ScoreSettings& settings = {}) {
+    EstimateWriter writer(folder_ / "estimate", body_.rest);
+    for (const TrackResult& result : results) writer.Append(result, 1.0);
+    writer.Finish();
+    RunRecord record;
+    record.run_id = "run";
+    record.config = record.provenance = record.summary = nlohmann::json::object();
+    ScoreRun(SequenceReader(SequenceFolder()), EstimateReader(folder_ / "estimate"), settings,
+             record);
+    WriteRunRecord(folder_.path(), record);
+    return ReadRunRecord(folder_.path(), "run");
+  }
+
+  TemporaryFolder folder_;
+  BodyModel body_ = TinyBody();
+  SequenceInfo info_;
+};
+
+TEST_F(Score, SingularSystemIsRecordedAsInfiniteCondition) {
+  std::vector<TrackResult> results = {Result(0), Result(1), Result(2)};
+  results[2].condition = kInfinity;
+  const RunRecord record = Scored(results);
+  EXPECT_EQ(record.frames.at("condition"), (std::vector<double>{10.0, 10.0, kInfinity}));
+  EXPECT_EQ(record.summary.at("condition_max"), kInfinity);
+  EXPECT_EQ(record.summary.at("non_finite"), 1);
+}
+
+TEST_F(Score, FrameWithoutMeasurementIsNotPartOfTheReconstructionError) {
+  std::vector<TrackResult> results = {Result(0), Result(1), Result(2)};
+  results[kFrameOutOfView] = Result(0);  // the tracker has lost the subject and stays where it was
+  results[kFrameOutOfView].outcome = Outcome::kNoData;
+  const RunRecord record = Scored(results, {.reconstruction_every = 1});
+  EXPECT_LT(record.summary.at("reconstruction_p95_m"), 3.0);
+  const RunRecord every_second = Scored(results, {.reconstruction_every = 2});  // frames 0 and 2
+  EXPECT_EQ(record.summary.at("reconstruction_mean_m"),
+            every_second.summary.at("reconstruction_mean_m"));
+}
+
+TEST_F(Score, ErrorOfNoVisibleVertexIsAbsentAndNotZero) {
+  const RunRecord record = Scored({Result(0), Result(1), Result(2)});
+  for (const char* key : {"l2_mean_visible_m", "l2_max_visible_m"}) {
+    EXPECT_TRUE(std::isnan(record.frames.at(key)[kFrameOutOfView])) << key;
+    EXPECT_NEAR(record.frames.at(key)[0], kError_m, 1e-6) << key;
+    EXPECT_NEAR(record.summary.at(key), kError_m, 1e-6) << key;  // of the two frames that have one
+  }
+  EXPECT_NEAR(record.frames.at("l2_mean_hidden_m")[kFrameOutOfView], kError_m, 1e-5);
+  EXPECT_EQ(record.summary.at("non_finite"), 0);
+}
+
+TEST_F(Score, StepsAndEnergiesThatAFrameLacksAreAbsentThere) {
+  std::vector<TrackResult> results = {Result(0), Result(1), Result(2)};
+  results[1].step_ms = {{"render", 1.0}, {"solve", 2.0}};
+  results[2].step_ms = {{"solve", 4.0}};
+  results[2].energies = {{"fit", 7.0}};
+  const RunRecord record = Scored(results);
+  ASSERT_EQ(record.steps.size(), 2u);
+  EXPECT_EQ(record.steps[0].name, "render");
+  EXPECT_EQ(record.steps[0].max_ms, 1.0);
+  EXPECT_EQ(record.steps[1].name, "solve");
+  EXPECT_EQ(record.steps[1].median_ms, 3.0);
+  const std::vector<double>& fit = record.frames.at("energy_fit");
+  EXPECT_TRUE(std::isnan(fit[0]) && std::isnan(fit[1]));
+  EXPECT_EQ(fit[2], 7.0);
+  EXPECT_EQ(record.summary.at("energy_mean"), 7.0);
+}
+
+}  // namespace
+}  // namespace vitruvia
