@@ -30,6 +30,7 @@ endfunction()
 
 function(use_precompiled_headers target set)
   if(VITRUVIA_PCH)
+    target_link_libraries(${target} PRIVATE fmt::fmt nlohmann_json::nlohmann_json Eigen3::Eigen)
     target_precompile_headers(${target} REUSE_FROM vitruvia_precompiled_${set})
   endif()
 endfunction()

@@ -80,11 +80,11 @@ void SweepAxis::Describe(Fields& f) {
   f.Text("setting", setting,
          {.meaning = "the setting's path: scene.KEY…, or method.settings.KEY… (vitruvia explain)",
           .required = true});
-  f.FreeJson("values", values, {.meaning = "its values: numbers, texts, true or false"});
-  f.Number("from", from, {.meaning = "instead of values: the first of a range"});
-  f.Number("to", to, {.meaning = "the last of the range"});
+  f.FreeJson("values", values, {.meaning = "values of the setting: numbers, texts, true or false"});
+  f.Number("from", from, {.meaning = "first value of a range, instead of values"});
+  f.Number("to", to, {.meaning = "last value of the range"});
   f.Integer("steps", steps,
-            {.meaning = "how many values the range has, its ends included; 0: there is no range",
+            {.meaning = "number of values in the range, both ends included; 0: no range",
              .min = 0,
              .max = kMostSteps});
   f.Choice("scale", scale, {{"linear", SweepScale::kLinear}, {"log", SweepScale::kLogarithmic}},

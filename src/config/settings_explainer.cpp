@@ -62,7 +62,7 @@ class Explainer final : public Fields {
   void Triples(const char* key, std::vector<double>&, const About& about) override {
     Add(key, about.null_items ? "list of [x, y, z] and nulls" : "list of [x, y, z]", "[]", about);
   }
-  bool BeginMap(const char* key, std::vector<std::string>& names, const About& about) override {
+  bool BeginMap(const char* key, std::vector<std::string>& names, const About&) override {
     names = {"NAME"};  // one line, of the entries, says all
     prefixes_.push_back(JoinedPath(prefixes_.back(), key));
     return true;

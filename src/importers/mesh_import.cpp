@@ -148,7 +148,8 @@ void MeshSequenceSettings::Describe(Fields& f) {
          {.meaning = "folder of the subject: mesh.ply, subject.json, weights.bin (FORMAT.md)",
           .required = true});
   f.File("rest", rest,
-         {.meaning = "the same mesh in the subject's rest pose, subject frame", .required = true});
+         {.meaning = "the mesh of the frames in the rest pose of the subject, subject frame",
+          .required = true});
   f.Choice("frame", frame, {{"subject", MeshFrame::kSubject}, {"camera", MeshFrame::kCamera}},
            {.meaning = "frame of reference of the frames' meshes: subject (y up, front to +z) or "
                        "camera (y down, z away)"});

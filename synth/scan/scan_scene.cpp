@@ -29,12 +29,13 @@ void CameraPathSettings::Describe(Fields& f) {
              .min = 0.0,
              .max = 5.0});
   f.Numbers("look_at_heights_m", look_at_heights_m,
-            {.meaning = "and looks at the axis at these heights meanwhile",
+            {.meaning = "the camera looks at the subject's vertical axis between these heights",
              .unit = "m",
              .min = -1.0,
              .max = 5.0});
-  f.Number("height_cycles", height_cycles,
-           {.meaning = "times that it goes up and down again", .min = 0.0, .max = 100.0});
+  f.Number(
+      "height_cycles", height_cycles,
+      {.meaning = "number of times that the camera moves up and down", .min = 0.0, .max = 100.0});
   f.Number("jitter_m", jitter_m,
            {.meaning = "unsteadiness of the hand: standard deviation of the camera's place",
             .unit = "m",

@@ -12,25 +12,27 @@ constexpr int kSides = 24;
 
 void OccluderSettings::Describe(Fields& f) {
   f.Number("radius_m", radius_m,
-           {.meaning = "of the post that walks past; 0: there is none",
+           {.meaning = "radius of the post that moves past the subject; 0: no post",
             .unit = "m",
             .min = 0.0,
             .max = 1.0,
             .origin = Origin::kInput});
   f.Number("height_m", height_m,
-           {.meaning = "of the post, from the floor up",
+           {.meaning = "height of the post above the floor",
             .unit = "m",
             .min = 0.01,
             .max = 3.0,
             .origin = Origin::kInput});
   f.Numbers(
       "start_m", start_m,
-      {.meaning = "its x (the subject's left) and z (towards where the subject looks first) at "
-                  "time 0",
+      {.meaning =
+           "position of the post at time 0: x to the subject's left, z to the direction that the "
+           "subject faces first",
        .unit = "m",
        .origin = Origin::kInput});
-  f.Numbers("velocity_m_s", velocity_m_s,
-            {.meaning = "its velocity along x and z", .unit = "m/s", .origin = Origin::kInput});
+  f.Numbers(
+      "velocity_m_s", velocity_m_s,
+      {.meaning = "velocity of the post along x and z", .unit = "m/s", .origin = Origin::kInput});
 }
 
 void AddOccluder(const OccluderSettings& s, double time_s, const Rigidd& camera_from_subject,

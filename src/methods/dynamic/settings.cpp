@@ -113,7 +113,7 @@ void PoseSettings::Describe(Fields& f) {
        .origin = Origin::kGuessed,
        .source = "paper B: a fixed number of iterations"});
   f.Number("translation_step_m", translation_step_m,
-           {.meaning = "and every prismatic joint moved by less",
+           {.meaning = "stop when every prismatic joint moved by less in an iteration; 0: never",
             .unit = "m",
             .min = 0,
             .max = 10,
