@@ -100,7 +100,7 @@ void RecordCurves(const JointErrorsByClass& errors, RunRecord& record) {
     record.joint_error_mean_m[joint] = Mean(of_joint);
 }
 
-void Summarize(const JointErrorsByClass& errors, RunRecord& record) {
+void SummarizeJointErrors(const JointErrorsByClass& errors, RunRecord& record) {
   nlohmann::json& row = record.summary;
   row["joint_error_mean_m"] = Mean(errors.all);
   if (!errors.visible.empty()) row["joint_error_mean_visible_m"] = Mean(errors.visible);
@@ -130,7 +130,7 @@ void ScoreJoints(const SequenceReader& sequence, const EstimateReader& estimate,
   const JointErrorsByClass errors = Classified(sequence, tracks, shared, record);
   if (errors.all.empty()) return;
   RecordCurves(errors, record);
-  Summarize(errors, record);
+  SummarizeJointErrors(errors, record);
 }
 
 }  // namespace vitruvia

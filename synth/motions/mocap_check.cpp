@@ -24,11 +24,11 @@ constexpr double kFastest_m_s = 15.0;  // nobody runs faster
 constexpr double kMostHeadDown = 0.5;  // of the frames
 constexpr double kMostKneesForward = 0.5;
 
-struct Segment {
+struct LimbPair {
   const char* name;
   BoneId left_from, left_to, right_from, right_to;
 };
-constexpr std::array<Segment, 4> kSegments{
+constexpr std::array<LimbPair, 4> kSegments{
     {{"upper arm", kLeftUpperArm, kLeftForearm, kRightUpperArm, kRightForearm},
      {"forearm", kLeftForearm, kLeftHand, kRightForearm, kRightHand},
      {"thigh", kLeftThigh, kLeftShin, kRightThigh, kRightShin},
@@ -99,7 +99,7 @@ class Checker {
 
   void MeasureLimbs() {
     for (std::size_t i = 0; i < kSegments.size(); ++i) {
-      const Segment& s = kSegments[i];
+      const LimbPair& s = kSegments[i];
       Range left, right;
       for (const MocapPose& pose : poses_) {
         left.Add((At(pose, s.left_to) - At(pose, s.left_from)).norm());
