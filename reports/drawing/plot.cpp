@@ -22,7 +22,7 @@ constexpr double kHeadroom = 1.06;  // of an axis over its largest value
 constexpr Color kGrid{0xe4, 0xe4, 0xe4}, kAxis{0x44, 0x44, 0x44}, kReferenceInk{0x66, 0x66, 0x66};
 constexpr double kReferenceDash = 5.0;
 constexpr double kPointRadius = 5.5, kRingWidth = 2.2;
-constexpr Color kPaper{0xff, 0xff, 0xff};
+constexpr Color kRingHole{0xff, 0xff, 0xff};
 
 // Fonts differ from reader to reader, so a legend's text is taken to be this wide a letter, a
 // little more than it needs.
@@ -76,7 +76,7 @@ double PanelHeight(const Figure& figure) {
 
 void DrawPoint(Canvas& canvas, Point at, const Series& series) {
   canvas.Disc(at, kPointRadius, series.color);
-  if (series.mark == Mark::kRings) canvas.Disc(at, kPointRadius - kRingWidth, kPaper);
+  if (series.mark == Mark::kRings) canvas.Disc(at, kPointRadius - kRingWidth, kRingHole);
 }
 
 void DrawLegend(Canvas& canvas, const std::vector<LegendEntry>& entries) {
