@@ -29,15 +29,17 @@ class Surroundings : public testing::Test {
   }
   std::string Messages() const { return ReadWholeFile(files_ / "messages"); }
 
-  // Two variants, of which the depth images of `damaged` hold nothing in so many of 12 frames.
+  // Two variants; of `damaged` the depth images of the last of its 12 frames hold nothing.
   void WriteDamagedExperiment(int damaged_frames, double limit) const {
     Json config = SmallExperiment::Config();
     config["failed_frames_limit"] = limit;
-    config["variants"] = {
-        {{"name", "whole"}},
-        {{"name", "damaged"},
-         {"faults",
-          {{"depth", {{"kind", "zero"}, {"first_frame", 0}, {"frames", damaged_frames}}}}}}};
+    config["variants"] = {{{"name", "whole"}},
+                          {{"name", "damaged"},
+                           {"faults",
+                            {{"depth",
+                              {{"kind", "zero"},
+                               {"first_frame", 12 - damaged_frames},
+                               {"frames", damaged_frames}}}}}}};
     files_.Write("experiment.json", config);
   }
   CallResult Run() const {
