@@ -104,7 +104,7 @@ void RequireSuccess(const PlannedExperiment& plan, const std::vector<PlannedRun>
   if (outcome.failed > 0)
     throw RunError(fmt::format("{} of {} runs failed", outcome.failed, runs.size()));
   if (doubtful > 0)
-    throw Error(kFramesFailed,
+    throw Error(ExitCode::kFramesFailed,
                 fmt::format("too many frames failed in {} of {} runs", doubtful, runs.size()));
 }
 

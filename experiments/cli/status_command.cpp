@@ -41,7 +41,8 @@ void PrintStatus(const fs::path& folder, const StoredPlan& plan) {
   if (count[RunState::kFailed] > 0)
     throw RunError(fmt::format("{} runs failed", count[RunState::kFailed]));
   if (doubtful > 0)
-    throw Error(kFramesFailed, fmt::format("too many frames failed in {} runs", doubtful));
+    throw Error(ExitCode::kFramesFailed,
+                fmt::format("too many frames failed in {} runs", doubtful));
 }
 
 // What the experiment file means now, to this build.

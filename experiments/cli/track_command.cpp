@@ -33,7 +33,7 @@ void Track(const TrackArguments& a) {
   if (failures.AreAll())
     throw RunError(fmt::format("track: all of the {} frames failed", failures.frames));
   if (failures.AreMoreThan(a.failed_frames_limit))
-    throw Error(kFramesFailed, "track: " + failures.Text(a.failed_frames_limit));
+    throw Error(ExitCode::kFramesFailed, "track: " + failures.Text(a.failed_frames_limit));
 }
 
 }  // namespace

@@ -46,6 +46,13 @@ class SpawnActions {
   int messages_ = -1;
 };
 
+// What lists of processes show: of a link such as /proc/self/exe the file that it stands for.
+std::string ShownName(const std::filesystem::path& program) {
+  std::error_code is_no_link;
+  const std::filesystem::path file = std::filesystem::read_symlink(program, is_no_link);
+  return (is_no_link ? program : file).string();
+}
+
 std::string ProblemOf(int status) {
   if (!WIFSIGNALED(status)) return "";
   const int signal = WTERMSIG(status);
@@ -66,7 +73,7 @@ void ChildProcesses::Start(int id, const ChildCommand& command) {
   if (!command.messages.empty()) actions.SendMessagesTo(command.messages);
   for (const int descriptor : command.inherited) actions.Inherit(descriptor);
   std::vector<std::string> words = command.arguments;
-  words.insert(words.begin(), command.program.string());
+  words.insert(words.begin(), ShownName(command.program));
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);

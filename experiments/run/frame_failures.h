@@ -4,11 +4,8 @@
 #include <string>
 
 #include "config/json_settings.h"
-#include "core/error.h"
 
 namespace vitruvia {
-
-inline constexpr ExitCode kFramesFailed{8};  // TEMP
 
 struct FrameFailures {
   int failed = 0, frames = 0;

@@ -21,7 +21,9 @@ enum class ExitCode : int {
   kAccuracyRegressed = 5,  // the regression gate's findings: some number is worse than the baseline
   kSpeedRegressed = 6,     // accuracy holds, but something is slower
   kNothingMeasured = 7,    // or less than what the baseline holds: nothing is known of the rest
-  kInterrupted = 130,      // stopped by the user
+  kFramesFailed = 8,  // the work is done, but more frames of a run failed than its limit allows
+  kUnsupportedProcessor = 9,  // the processor lacks instructions that the program was built with
+  kInterrupted = 130,         // stopped by the user
 };
 
 class Error : public std::runtime_error {
