@@ -198,14 +198,17 @@ TEST(RunPlans, ComeBackAsTheyWereFromTheStoredForm) {
     if (!json.contains("methods") || !json.contains("scenes")) continue;
     const ExperimentPlan plan = PlanExperiment(entry.path());
     for (const PlannedRun& planned : PlannedRuns(plan, {"s", "l"})) {
-      const Json stored = Json::parse(WriteSettings(planned).dump());
-      const RunPlan read = ReadRunPlan(ReadSettings<PlannedRun>(stored, {"run.json", ""}));
+      const Json stored = Json::parse(StoredJson(planned).dump());
+      const RunPlan read = ReadRunPlan(FromStoredJson<PlannedRun>(stored, {"run.json", ""}));
       const Json& resolved = planned.resolved;
-      if (read.sequence.empty())
+      if (read.sequence.empty()) {
         EXPECT_EQ(WriteSettings(read.scene_settings), resolved.at("scene")) << entry.path();
+      }
       EXPECT_EQ(read.method.settings, resolved.at("method").at("settings")) << entry.path();
       EXPECT_EQ(WriteSettings(read.score), resolved.at("score")) << entry.path();
-      if (read.subject) EXPECT_EQ(ResolvedRecipe(*read.subject), resolved.at("subject"));
+      if (read.subject) {
+        EXPECT_EQ(ResolvedRecipe(*read.subject), resolved.at("subject"));
+      }
       EXPECT_EQ(read.faults.AreNone(), !resolved.contains("faults")) << entry.path();
       EXPECT_EQ(CacheKey(read.resolved), planned.key) << entry.path();
       ++runs;

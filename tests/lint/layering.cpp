@@ -17,11 +17,13 @@ namespace fs = std::filesystem;
 
 // Headers with a folder or a .h in their name that come with the compiler and the C library. Any
 // other such header is third-party and has to be declared by a module.
-constexpr std::array kSystemHeaders = {
-    "dlfcn.h",    "fcntl.h",     "fnmatch.h",   "immintrin.h",    "link.h",
-    "malloc.h",   "poll.h",      "pthread.h",   "sched.h",        "signal.h",
-    "stdlib.h",   "sys/mman.h",  "sys/prctl.h", "sys/resource.h", "sys/socket.h",
-    "sys/stat.h", "sys/types.h", "sys/wait.h",  "unistd.h"};
+constexpr std::array kSystemHeaders = {"dlfcn.h",        "fcntl.h",      "fnmatch.h",
+                                       "immintrin.h",    "link.h",       "linux/close_range.h",
+                                       "malloc.h",       "poll.h",       "pthread.h",
+                                       "sched.h",        "signal.h",     "spawn.h",
+                                       "stdlib.h",       "sys/mman.h",   "sys/prctl.h",
+                                       "sys/resource.h", "sys/socket.h", "sys/stat.h",
+                                       "sys/types.h",    "sys/wait.h",   "unistd.h"};
 
 constexpr std::string_view kMethodsFolder = "src/methods";
 
