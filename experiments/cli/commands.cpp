@@ -155,7 +155,8 @@ int RunCommandLine(int argc, const char* const* argv) {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {
       throw ConfigError(
-          "expected a command: list, synth, import, verify, learn, scan, fit, track, run, status, submit, "
+          "expected a command: list, synth, import, verify, learn, scan, fit, track, run, status, "
+          "submit, "
           "rescore, export, report, index, compare, "
           "sufficient, regress, schema or explain (--help)");
     }

@@ -48,7 +48,8 @@ void ImportEval(const ImportArguments& a) {
 void AddImportCommand(CLI::App& app) {
   auto a = std::make_shared<ImportArguments>();
   CLI::App* import = app.add_subcommand(
-      "import", "Make a sequence of recordings or meshes of other programs, or check a motion file");
+      "import",
+      "Make a sequence of recordings or meshes of other programs, or check a motion file");
   import->require_subcommand(1);
   CLI::App* meshes = import->add_subcommand(
       "meshes", "Mesh files, one for each frame: rendered as a depth camera sees them");

@@ -15,8 +15,7 @@ void PlannedRun::Describe(Fields& f) {
   f.Text("kind", kind, {.meaning = "kind of the experiment"});
   f.Text("run_id", run_id, {.meaning = "name of the run and of its folder"});
   f.Text("key", key, {.meaning = "hash of all that the result depends on"});
-  f.FreeJson("resolved", resolved,
-             {.meaning = "settings that the result depends on"});
+  f.FreeJson("resolved", resolved, {.meaning = "settings that the result depends on"});
   f.Text("variant", variant, {.meaning = "name of the variant"});
   f.Text("scene", scene, {.meaning = "name of the scene, the sequence or the person"});
   f.Text("method", method, {.meaning = "name of the method"});
@@ -25,10 +24,8 @@ void PlannedRun::Describe(Fields& f) {
   f.Integer("person", person, {.meaning = "number of the person in the population"});
   f.Integer("frames", frames, {.meaning = "number of frames that are tracked"});
   f.Flag("timed", timed, {.meaning = "whether the run has its machine to itself"});
-  f.File("sequences", work.sequences,
-         {.meaning = "folder of synthesised sequences"});
-  f.File("learned", work.learned,
-         {.meaning = "folder of learnt models and fitted subjects"});
+  f.File("sequences", work.sequences, {.meaning = "folder of synthesised sequences"});
+  f.File("learned", work.learned, {.meaning = "folder of learnt models and fitted subjects"});
 }
 
 JsonOrigin ResolvedOrigin(const char* key) { return {"resolved settings", key}; }

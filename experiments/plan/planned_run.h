@@ -39,7 +39,8 @@ struct PlannedRun {
   bool timed = false;  // nothing else may run beside it on its machine
   WorkFolders work;
 
-  std::optional<CachedFolder> shares;  // not stored: work that the first of several runs does for all
+  std::optional<CachedFolder>
+      shares;  // not stored: work that the first of several runs does for all
 
   void Describe(Fields& fields);
 };

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "records/metric_value.h"
-
 #include "tracking/realtime_scape_steps.h"
 
 namespace vitruvia {

@@ -191,9 +191,10 @@ TEST_F(StoredData, NamesFileAndPlaceOfWhatIsWrong) {
   EXPECT_EQ(refusal("/errors/head", "big"), "errors.head: expected a number, got \"big\"");
   EXPECT_EQ(refusal("/curves/all/0", "big"), "curves.all[0]: expected a number, got \"big\"");
   EXPECT_EQ(refusal("/reasons/b", 3), "reasons.b: expected a text, got 3");
-  EXPECT_EQ(refusal("/notes/1/weigth", 3),
-            "notes[1].weigth: unknown key (value 3); did you mean \"weight\"? valid keys here: text, "
-            "weight");
+  EXPECT_EQ(
+      refusal("/notes/1/weigth", 3),
+      "notes[1].weigth: unknown key (value 3); did you mean \"weight\"? valid keys here: text, "
+      "weight");
   WriteWholeFile(file_, R"({"a": 1, "b": {"c": 1, "c": 2}})");
   EXPECT_THAT([&] { ReadStored<Sample>(file_); },
               testing::ThrowsMessage<DataError>(file_.string() +

@@ -1,5 +1,5 @@
-// Each setting's meaning is shown alone by `vitruvia explain`, in schemas and in messages, so it may
-// not continue the sentence of the setting before it.
+// Each setting's meaning is shown alone by `vitruvia explain`, in schemas and in messages, so it
+// may not continue the sentence of the setting before it.
 #include <regex>
 #include <string>
 #include <vector>
