@@ -60,7 +60,7 @@ TEST(Cleaned, DropsIslandsAndSaysWhatTheyWere) {
   EXPECT_NEAR(surface.components[1].area_m2, 0.0025 * (1.5 + std::sqrt(3.0) / 2.0), 1e-8);
   EXPECT_TRUE(surface.components[0].kept);
   EXPECT_FALSE(surface.components[1].kept);
-  EXPECT_EQ(surface.components[1].low, Vector3f(3, 0, 0));
+  EXPECT_EQ(surface.components[1].box.min(), Vector3f(3, 0, 0));
   EXPECT_THAT(surface.mesh.vertices, testing::ElementsAreArray(large.vertices));
   EXPECT_THAT(surface.mesh.triangles, SizeIs(4));
   EXPECT_THAT(surface.weights, SizeIs(4));
