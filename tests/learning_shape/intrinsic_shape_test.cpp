@@ -234,19 +234,21 @@ TEST(IntrinsicShape, CeresFindsNothingLowerForTheSamePairs) {
             1e-3);
 }
 
-// Parents that are turned, and a prior so tight that it counts.
+// Parents that are turned, and a prior so tight that it counts: the fit ends 2 % above the optimum
+// if the prior's gradient is taken in the wrong frame.
 TEST(IntrinsicShape, CeresFindsNothingLowerForAPersonTurnedAndBent) {
   const DatabaseSubject& person = SmallDatabase().subjects[36];
   JointPose pose = JointPose::Rest(person.skeleton);
-  pose.local_rotations[static_cast<int>(BoneId::kPelvis)] = ExpSo3<double>({0.0, 0.4, 0.0});
-  pose.local_rotations[static_cast<int>(BoneId::kLeftUpperArm)] = ExpSo3<double>({0.0, 0.0, -0.14});
-  pose.local_rotations[static_cast<int>(BoneId::kRightThigh)] = ExpSo3<double>({0.1, 0.0, 0.0});
+  pose.local_rotations[static_cast<int>(BoneId::kPelvis)] = ExpSo3<double>({0.0, 0.2, 0.0});
+  pose.local_rotations[static_cast<int>(BoneId::kAbdomen)] = ExpSo3<double>({0.0, 0.0, 0.06});
+  pose.local_rotations[static_cast<int>(BoneId::kLeftUpperArm)] = ExpSo3<double>({0.0, 0.0, -0.07});
   std::vector<Vector3f> posed;
   SkinLinear(person.vertices, SmallDatabase().reference.weights,
              ForwardKinematics(person.skeleton, pose), posed);
   IntrinsicShapeSettings settings = FittedToTheEnd();
-  settings.pose_slack_deg = 0.5;
-  EXPECT_LT(LoweredByCeres(SurfaceOf(MeshOf(posed)), person.attributes, settings), 1e-3);
+  settings.pose_slack_deg = 1.0;
+  settings.first_cutoff_m = 0.2;
+  EXPECT_LT(LoweredByCeres(SurfaceOf(MeshOf(posed)), person.attributes, settings), 1e-4);
 }
 
 TEST(IntrinsicShape, ChoosesAsManyScanPointsAsAskedFor) {
