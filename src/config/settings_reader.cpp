@@ -39,7 +39,7 @@ std::filesystem::path ResolvedPath(const std::string& text, const std::string& w
       throw ConfigError(fmt::format("{}: {} needs the environment variable {}, which is not set",
                                     where, text, name));
     }
-    if (!std::filesystem::exists(value)) {
+    if (!std::filesystem::exists((config_file.parent_path() / value).lexically_normal())) {
       throw ConfigError(fmt::format(
           "{}: {} needs the environment variable {}, which names {}, and that is not there", where,
           text, name, value));
