@@ -49,16 +49,4 @@ int RepeatOf(const RunRecord& run) {
   return run.summary.is_object() ? run.summary.value("repeat", 1) : 1;
 }
 
-std::string UnknownMetricsProblem(const RunRecord& run) {
-  for (const auto& item : run.summary.items()) {
-    const std::string problem = UnknownMetricProblem(item.key());
-    if (!problem.empty()) return "summary: " + problem;
-  }
-  for (const auto& [name, values] : run.frames) {
-    const std::string problem = UnknownMetricProblem(name);
-    if (!problem.empty()) return "frames: " + problem;
-  }
-  return "";
-}
-
 }  // namespace vitruvia

@@ -20,8 +20,4 @@ double MetricValue(const RunRecord& run, const std::string& key);
 // Which repetition of its run this is, from 1.
 int RepeatOf(const RunRecord& run);
 
-// "" if the catalogue has every key of the summary row and of the series per frame, else what is
-// wrong.
-std::string UnknownMetricsProblem(const RunRecord& run);
-
 }  // namespace vitruvia

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "metrics/catalogue.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -170,9 +171,24 @@ void WriteExperimentRecord(const fs::path& experiment_folder, const ExperimentRe
 }
 
 void WriteRunRecord(const fs::path& experiment_folder, const RunRecord& record) {
+  if (const std::string problem = UnknownMetricsProblem(record); !problem.empty()) {
+    throw std::invalid_argument(problem);
+  }
   RequireStorable(record, "");
   MakeFolder(experiment_folder / record.run_id);
   WriteStored(experiment_folder / record.run_id / kRunFile, record);
+}
+
+std::string UnknownMetricsProblem(const RunRecord& run) {
+  for (const auto& item : run.summary.items()) {
+    const std::string problem = UnknownMetricProblem(item.key());
+    if (!problem.empty()) return "summary: " + problem;
+  }
+  for (const auto& [name, values] : run.frames) {
+    const std::string problem = UnknownMetricProblem(name);
+    if (!problem.empty()) return "frames: " + problem;
+  }
+  return "";
 }
 
 ExperimentSummary ReadSummary(const fs::path& experiment_folder) {

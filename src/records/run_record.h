@@ -99,7 +99,12 @@ ExperimentRecord ReadExperimentRecord(const std::filesystem::path& experiment_fo
 RunRecord ReadRunRecord(const std::filesystem::path& experiment_folder, const std::string& run_id);
 void WriteExperimentRecord(const std::filesystem::path& experiment_folder,
                            const ExperimentRecord& record);
+// std::invalid_argument naming the key if a number cannot be stored, or if the metric catalogue
+// lacks the key of the summary row or of a series per frame.
 void WriteRunRecord(const std::filesystem::path& experiment_folder, const RunRecord& record);
+// "" if the catalogue has every key of the summary row and of the series per frame, else what is
+// wrong.
+std::string UnknownMetricsProblem(const RunRecord& run);
 ExperimentSummary ReadSummary(const std::filesystem::path& experiment_folder);
 void WriteExperimentSummary(const std::filesystem::path& experiment_folder,
                             const ExperimentSummary& summary);

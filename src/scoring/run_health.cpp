@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/statistics.h"
+#include "metrics/catalogue.h"
 
 namespace vitruvia {
 namespace {
@@ -65,7 +66,7 @@ void SummarizeEnergies(const RunRecord& record, nlohmann::json& row) {
   double sum = 0.0;
   bool has_energies = false;
   for (const auto& [name, values] : record.frames) {
-    if (!name.starts_with("energy_") || name == "energy_rise") continue;
+    if (FindMetric(name).family != kEnergyOfTerm) continue;
     has_energies = true;
     sum += Mean(PresentValues(values));
   }

@@ -92,7 +92,8 @@ TEST(KinematicTree, TwistsAreTheDerivativesOfTheBonesMotions) {
       Vector3d expected = Vector3d::Zero();
       if (std::find(chain.begin(), chain.end(), k) != chain.end()) {
         const Vector3d posed = RigidOf(pose.camera_from_rest[bone]) * point;
-        expected = pose.twists[k].head<3>().cross(posed) + pose.twists[k].tail<3>();
+        expected =
+            pose.twists[k].head<3>().cross(posed - pose.twist_origin) + pose.twists[k].tail<3>();
       }
       EXPECT_LT((numeric - expected).norm(), 1e-8) << tree.joints()[k].name << " on " << bone;
     }

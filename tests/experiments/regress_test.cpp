@@ -80,7 +80,7 @@ TEST_F(Regress, AChangedWeightOfATermTripsAccuracy) {
   EXPECT_THAT(outcome.error, HasSubstr("vitruvia: regress: accuracy regressed: "));
   EXPECT_THAT(Report("md"), HasSubstr("| `experiment: default.scene.method.s1` | l2_mean_m | "));
   EXPECT_THAT(Report("xml"), HasSubstr("name=\"accuracy\">\n    <failure message=\""));
-  const Json history = ReadJsonFile(files_ / "out/history.json");
+  const Json history = ReadJsonFile(files_ / "out/history.json").at("entries");
   ASSERT_EQ(history.size(), 1u);
   EXPECT_EQ(history.at(0).at("exit_code"), static_cast<int>(ExitCode::kAccuracyRegressed));
 }

@@ -43,7 +43,7 @@ class SchemaCheck {
     if (keyword == "required") return HasAll(rule, value);
     if (keyword == "properties") return CheckProperties(rule, value, path);
     if (keyword == "items") return CheckItems(rule, value, path);
-    if (keyword == "additionalProperties") return rule == false && NoOthers(schema, value);
+    if (keyword == "additionalProperties") return CheckOthers(rule, schema, value, path);
     if (keyword == "allOf") return CheckAll(rule, value, path);
     if (keyword == "if") return CheckIf(rule, schema.at("then"), value, path);
     return keyword == "then" || keyword == "$schema" || keyword == "title" ||
@@ -64,9 +64,13 @@ class SchemaCheck {
                        [&](const Json& name) { return value.contains(name.get<std::string>()); });
   }
 
-  static bool NoOthers(const Json& schema, const Json& value) {
-    for (const auto& item : value.items()) {
-      if (!schema.at("properties").contains(item.key())) return false;
+  bool CheckOthers(const Json& rule, const Json& schema, const Json& value,
+                   const std::string& path) {
+    const Json named = schema.value("properties", Json::object());
+    for (const auto& [key, item] : value.items()) {
+      if (named.contains(key)) continue;
+      if (rule == false) return false;
+      Check(rule, item, path + "/" + key);
     }
     return true;
   }
@@ -126,6 +130,12 @@ TEST(Schema, HoldsForEveryConfigFile) {
 // Dotted keys as `explain` writes them.
 void CollectKeys(const Json& schema, const std::string& path, std::set<std::string>& keys) {
   if (schema.contains("items")) return CollectKeys(schema.at("items"), path + "[]", keys);
+  const Json others = schema.value("additionalProperties", Json(false));
+  if (others.is_object()) {
+    keys.erase(path);
+    keys.insert(path + ".NAME");
+    return CollectKeys(others, path + ".NAME", keys);
+  }
   if (!schema.contains("properties")) return;
   for (const auto& [key, property] : schema.at("properties").items()) {
     if (key == "$schema") continue;

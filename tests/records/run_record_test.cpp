@@ -90,6 +90,11 @@ TEST_F(RunRecordTest, RefusesToStoreWhatJsonCannotHold) {
   EXPECT_THAT(
       [&] { WriteRunRecord(folder_, record); },
       testing::ThrowsMessage<std::invalid_argument>(HasSubstr("config.method.lambda = inf")));
+  record = SomeRun();
+  record.summary["l2_meen_m"] = 0.1;
+  EXPECT_THAT([&] { WriteRunRecord(folder_, record); },
+              testing::ThrowsMessage<std::invalid_argument>(
+                  "summary: unknown metric \"l2_meen_m\"; did you mean \"l2_mean_m\"?"));
   EXPECT_FALSE(fs::exists(folder_));
 }
 

@@ -112,7 +112,6 @@ void WriteRun(const fs::path& experiment, RunRecord run, const BodyModel& body, 
   for (const std::string joints : {"all", "visible"}) {
     run.joint_accuracy[joints] = AccuracyCurve(joint_errors, run.threshold_m);
   }
-  run.joint_accuracy["hidden"].assign(run.threshold_m.size(), kNoValue);
   run.summary = {{"run_id", run.run_id},
                  {"variant", run.variant},
                  {"scene", run.scene},
@@ -126,8 +125,7 @@ void WriteRun(const fs::path& experiment, RunRecord run, const BodyModel& body, 
                  {"joints_within_10cm", ShareWithin(joint_errors, 0.1)},
                  {"frame_ms_median", Quantile(frame_ms, 0.5)},
                  {"frame_ms_p95", Quantile(frame_ms, 0.95)},
-                 {"iterations_mean", 3.0},
-                 {"l2_mean_hidden_m", nullptr}};
+                 {"iterations_mean", 3.0}};
   WriteRunRecord(experiment, run);
 }
 

@@ -11,6 +11,7 @@
 #include "methods/dynamic/placement.h"
 #include "methods/dynamic/pose_solver.h"
 #include "methods/dynamic/shape_step.h"
+#include "tracking/frame_checks.h"
 
 namespace vitruvia::dynamic {
 namespace {
@@ -96,7 +97,7 @@ struct Dynamic::Session {
 
   // Of the frame at hand.
   PoseEquations equations;
-  StepTimes times;
+  Clock clock;
 };
 
 // What fitting one frame gave.
@@ -131,24 +132,22 @@ TrackResult Dynamic::TrackFrame(const DepthFrame& frame) {
     if (is_first) Place();
     fit = FitPose(is_first);
     FitShape(is_first, fit);
-    session_->fine.PoseVertices(session_->pose, session_->team, session_->times);
+    session_->fine.PoseVertices(session_->pose, session_->team, session_->clock);
   }
   return Result(fit);
 }
 
 void Dynamic::ReadClouds(const DepthFrame& frame) {
   Session& s = *session_;
-  Require(frame.depth.width() == s.camera.width && frame.depth.height() == s.camera.height,
-          "frame {} is {}×{} pixels, the camera {}×{}", frame.index, frame.depth.width(),
-          frame.depth.height(), s.camera.width, s.camera.height);
-  s.times.Restart();
+  CheckFrameSize(frame, s.camera);
+  s.clock.Restart();
   const auto max_depth = static_cast<float>(settings_.max_depth_m);
   CloudFromDepth(frame.depth, s.camera, 1, max_depth, s.fine.cloud);
   if (s.coarse) {
     CloudFromDepth(frame.depth, s.camera, settings_.association.pose_pixel_stride, max_depth,
                    s.coarse->cloud);
   }
-  s.times.Lap(kCloud);
+  s.clock.Lap(TimedStep::kCloud);
 }
 
 // Moves the root's joints alone until the rest pose stands where the first frame's points are.
@@ -161,10 +160,10 @@ void Dynamic::Place() {
   Level& level = s.pose_level();
   for (int i = 0; i < settings.iterations; ++i) {
     s.tree.Pose(s.camera_from_start, s.theta, s.pose);
-    level.Match(s.pose, limits, s.team, s.times);
-    level.Assemble(s.tree, s.pose, s.team, s.equations, s.times);
+    level.Match(s.pose, limits, s.team, s.clock);
+    level.Assemble(s.tree, s.pose, s.team, s.equations, s.clock);
     s.solver.Step(s.tree, s.equations, s.root_joints, {settings_.pose.damping, 0.0, 0.0}, s.theta);
-    s.times.Lap(kSolve);
+    s.clock.Lap(TimedStep::kSolve);
   }
   s.placed = true;
 }
@@ -201,13 +200,13 @@ void Dynamic::IteratePose(int limit, FrameFit& fit) {
   const AssociationLimits limits =
       LimitsOf(a.window_px, PoseCutoff(a, fit.iterations, limit), a.facing_cosine);
   s.tree.Pose(s.camera_from_start, s.theta, s.pose);
-  level.Match(s.pose, limits, s.team, s.times);
+  level.Match(s.pose, limits, s.team, s.clock);
   fit.matched_share = std::max(fit.matched_share, level.MatchedShare());
-  level.Assemble(s.tree, s.pose, s.team, s.equations, s.times);
+  level.Assemble(s.tree, s.pose, s.team, s.equations, s.clock);
   const PoseStep step = s.solver.Step(
       s.tree, s.equations, s.all_joints,
       {settings.damping, settings.default_pose_weight, settings.freeze_below_share}, s.theta);
-  s.times.Lap(kSolve);
+  s.clock.Lap(TimedStep::kSolve);
   ++fit.iterations;
   fit.condition = step.condition;
   fit.solved = step.solved;
@@ -234,17 +233,17 @@ void Dynamic::FitShape(bool is_first, FrameFit& fit) {
                                             settings_.association.facing_cosine);
   const int iterations = is_first ? settings.first_frame_iterations : settings.iterations;
   for (int i = 0; i < iterations; ++i) {
-    s.fine.Match(s.pose, limits, s.team, s.times);
+    s.fine.Match(s.pose, limits, s.team, s.clock);
     const ShapeEnergy energy =
         s.shape.Iterate(s.fine.observations, weights, s.team, s.fine.surface);
     fit.energies[kShapeDataTerm] = energy.data;
     fit.energies[kShapeMagnitudeTerm] = energy.magnitude;
     fit.energies[kShapeSmoothnessTerm] = energy.smoothness;
-    s.times.Lap(kShape);
+    s.clock.Lap(TimedStep::kShape);
   }
   s.normals.Update(s.team, s.fine.surface);
   s.RefreshCoarse();
-  s.times.Lap(kNormals);
+  s.clock.Lap(TimedStep::kNormals);
 }
 
 TrackResult Dynamic::Result(const FrameFit& fit) {
@@ -265,8 +264,8 @@ TrackResult Dynamic::Result(const FrameFit& fit) {
   result.condition = fit.condition;
   for (int k = 0; k < kEnergyTermCount; ++k)
     result.energies.push_back({kEnergyTermNames[k], fit.energies[k]});
-  s.times.Lap(kResult);
-  for (int k = 0; k < kStepCount; ++k) result.step_ms.push_back({kStepNames[k], s.times.ms[k]});
+  s.clock.Lap(TimedStep::kResult);
+  result.step_ms = s.clock.times().Named();
   return result;
 }
 

@@ -122,6 +122,11 @@ void KinematicTree::Pose(const Rigidd& camera_from_start, const Eigen::VectorXd&
       links_[k] = Product(before, PrismaticMotion(joint.axis, theta[static_cast<Eigen::Index>(k)]));
     }
   }
+  const int pelvis_link = chains_[static_cast<int>(BoneId::kPelvis)].back();
+  pose.twist_origin = links_[pelvis_link].ToRigid().translation;
+  for (Twist& twist : pose.twists) {  // until here about the camera's origin
+    twist.tail<3>() += twist.head<3>().cross(pose.twist_origin);
+  }
   for (int bone = 0; bone < kBoneCount; ++bone) {
     const int link = chains_[bone].back();
     pose.camera_from_rest[bone] = Product(links_[link], Translation(-joints_[link].place));

@@ -32,13 +32,17 @@ struct TreeJoint {
   double prior;           // factor on the default-pose prior
 };
 
-// A motion at unit joint speed: angular velocity and the velocity of the camera's origin, camera
-// frame. For a hinge through c about a: (a, c × a); for a prismatic joint along a: (0, a).
+// A motion at unit joint speed, camera frame: angular velocity, and the velocity of the point of
+// the moving body that is at the twists' origin o. For a hinge through c about a: (a, (c − o) × a);
+// for a prismatic joint along a: (0, a).
 using Twist = Eigen::Matrix<double, 6, 1>;
 
 struct TreePose {
   std::array<DualQuaternion<double>, kBoneCount> camera_from_rest;  // B_b = T_k(θ) T_k(0)⁻¹
-  std::vector<Twist> twists;                                        // per joint
+  // The pelvis joint's position, so that the levers of joints are short: sums of products of long
+  // ones lose single precision, the more the farther the body is from the camera.
+  Vector3<double> twist_origin;
+  std::vector<Twist> twists;  // per joint
 };
 
 class KinematicTree {

@@ -16,18 +16,18 @@ Level::Level(const TrackedMesh& mesh, const PinholeCamera& camera)
   observations.Reset(surface.layout.slot_count());
 }
 
-void Level::PoseVertices(const TreePose& pose, WorkerTeam& team, StepTimes& times) {
-  motions = MotionsOf<float>(pose);
+void Level::PoseVertices(const TreePose& pose, WorkerTeam& team, Clock& clock) {
+  const BoneMotions<float> motions = MotionsOf<float>(pose);
   const auto& patches = surface.layout.patches;
   team.For(static_cast<int>(patches.size()), kPatchesPerRange, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) PosePatch(patches[i], motions, surface);
   });
-  times.Lap(kSkin);
+  clock.Lap(TimedStep::kSkin);
 }
 
 void Level::Match(const TreePose& pose, const AssociationLimits& limits, WorkerTeam& team,
-                  StepTimes& times) {
-  motions = MotionsOf<float>(pose);
+                  Clock& clock) {
+  const BoneMotions<float> motions = MotionsOf<float>(pose);
   const auto& patches = surface.layout.patches;
   team.For(static_cast<int>(patches.size()), kPatchesPerRange, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
@@ -36,15 +36,16 @@ void Level::Match(const TreePose& pose, const AssociationLimits& limits, WorkerT
       observations.Clear(patches[i].begin, patches[i].end);
     }
   });
-  times.Lap(kSkin);
+  clock.Lap(TimedStep::kSkin);
   association.FillBuckets(surface, team);
   association.FindNearest(cloud, limits, team);
   association.Observe(cloud, team, observations);
-  times.Lap(kAssociate);
+  clock.Lap(TimedStep::kAssociate);
 }
 
 void Level::Assemble(const KinematicTree& tree, const TreePose& pose, WorkerTeam& team,
-                     PoseEquations& result, StepTimes& times) {
+                     PoseEquations& result, Clock& clock) {
+  const LinkMotions<float> motions = LinkMotionsOf<float>(pose);
   team.For(static_cast<int>(surface.layout.patches.size()), kPatchesPerRange,
            [&](int begin, int end) {
              for (int i = begin; i < end; ++i) {
@@ -52,7 +53,7 @@ void Level::Assemble(const KinematicTree& tree, const TreePose& pose, WorkerTeam
              }
            });
   equations.ReduceToJoints(surface.layout, tree, pose, result);
-  times.Lap(kAssemble);
+  clock.Lap(TimedStep::kAssemble);
 }
 
 double Level::MatchedShare() const {

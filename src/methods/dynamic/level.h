@@ -2,16 +2,18 @@
 // that follow.
 #pragma once
 
-#include "core/timer.h"
+#include <array>
+
 #include "core/worker_team.h"
 #include "methods/dynamic/association.h"
 #include "methods/dynamic/pose_equations.h"
 #include "methods/dynamic/tracked_mesh.h"
+#include "tracking/step_clock.h"
 
 namespace vitruvia::dynamic {
 
 // The timed steps of a frame.
-enum TimedStep {
+enum class TimedStep {
   kCloud,
   kSkin,
   kAssociate,
@@ -20,33 +22,26 @@ enum TimedStep {
   kShape,
   kNormals,
   kResult,
-  kStepCount
+  kCount
 };
-inline constexpr std::array<const char*, kStepCount> kStepNames = {
-    "cloud", "skin", "associate", "assemble", "solve", "shape", "normals", "result"};
-
-struct StepTimes {
-  std::array<double, kStepCount> ms{};
-  Stopwatch watch;
-
-  void Restart() {
-    ms.fill(0.0);
-    watch.LapMs();
-  }
-  void Lap(TimedStep step) { ms[step] += watch.LapMs(); }
-};
+constexpr const char* Name(TimedStep step) {
+  constexpr std::array kNames = {"cloud", "skin",  "associate", "assemble",
+                                 "solve", "shape", "normals",   "result"};
+  static_assert(kNames.size() == static_cast<std::size_t>(TimedStep::kCount));
+  return kNames[static_cast<std::size_t>(step)];
+}
+using Clock = StepClock<TimedStep>;
 
 struct Level {
   Level(const TrackedMesh& mesh, const PinholeCamera& camera);
 
   // Eqs. 3 to 5 for all vertices.
-  void PoseVertices(const TreePose& pose, WorkerTeam& team, StepTimes& times);
+  void PoseVertices(const TreePose& pose, WorkerTeam& team, Clock& clock);
   // Poses the surface and associates every point of the cloud with a vertex.
-  void Match(const TreePose& pose, const AssociationLimits& limits, WorkerTeam& team,
-             StepTimes& times);
+  void Match(const TreePose& pose, const AssociationLimits& limits, WorkerTeam& team, Clock& clock);
   // The pose step's normal equations of the last Match.
   void Assemble(const KinematicTree& tree, const TreePose& pose, WorkerTeam& team,
-                PoseEquations& result, StepTimes& times);
+                PoseEquations& result, Clock& clock);
   // Share of the points that found a vertex in the last Match.
   double MatchedShare() const;
 
@@ -55,7 +50,6 @@ struct Level {
   Association association;
   Observations<float> observations;
   LinkEquations<float> equations;
-  BoneMotions<float> motions;
 };
 
 }  // namespace vitruvia::dynamic

@@ -7,7 +7,8 @@
 namespace vitruvia::dynamic {
 namespace {
 
-// The six derivatives of n·v after a link's (φ, τ), written to row[0 … 5].
+// The six derivatives of n·v after a link's (φ, τ), written to row[0 … 5]. v, t and the dual
+// quaternions are about the twists' origin.
 //
 // With b = q_r + ε q_d the blend, n² = |q_r|², and c = w/n² q_k q_r*, f = w/n² d_k q_r* of a link's
 // q̂_k = q_k + ε d_k, both as scalar and vector:
@@ -65,6 +66,19 @@ struct LinkRow {
 }  // namespace
 
 template <class Scalar>
+LinkMotions<Scalar> LinkMotionsOf(const TreePose& pose) {
+  const auto origin_from_camera =
+      DualQuaternion<double>::FromRigid({Matrix3<double>::Identity(), -pose.twist_origin});
+  LinkMotions<Scalar> motions;
+  motions.origin = pose.twist_origin.template cast<Scalar>();
+  for (int b = 0; b < kBoneCount; ++b) {
+    const DualQuaternion<double> bone = Product(origin_from_camera, pose.camera_from_rest[b]);
+    motions.origin_from_rest[b] = {bone.real.cast<Scalar>(), bone.dual.cast<Scalar>()};
+  }
+  return motions;
+}
+
+template <class Scalar>
 LinkEquations<Scalar>::LinkEquations(const SurfaceLayout& layout) : sums_(layout.patches.size()) {
   link_hessian_.resize(kLinkUnknowns, kLinkUnknowns);
   link_gradient_.resize(kLinkUnknowns);
@@ -73,7 +87,7 @@ LinkEquations<Scalar>::LinkEquations(const SurfaceLayout& layout) : sums_(layout
 template <class Scalar>
 template <int N>
 void LinkEquations<Scalar>::AddLanes(const Patch& patch, const Surface<Scalar>& s,
-                                     const BoneMotions<Scalar>& bones,
+                                     const LinkMotions<Scalar>& motions,
                                      const Observations<Scalar>& observations,
                                      PatchSums& sums) const {
   using Lane = Lanes<Scalar>;
@@ -84,7 +98,7 @@ void LinkEquations<Scalar>::AddLanes(const Patch& patch, const Surface<Scalar>& 
   for (Lane& lane : gradient) lane.setZero();
   Lane energy = Lane::Zero();
   sums.residuals = 0;
-  const auto q = InOneHemisphere(patch, bones);
+  const auto q = InOneHemisphere(patch, motions.origin_from_rest);
   for (int slot = patch.begin; slot < patch.end; slot += kLanes) {
     const Eigen::Map<const Eigen::Array<Scalar, 4, kLanes>> observed(
         observations.sums.data() + 4 * static_cast<std::size_t>(slot));
@@ -105,7 +119,9 @@ void LinkEquations<Scalar>::AddLanes(const Patch& patch, const Surface<Scalar>& 
     const Lane mean_y = observed.row(1).transpose() * inverse_count;
     const Lane mean_z = observed.row(2).transpose() * inverse_count;
     const Lane r = n.x * (v.x - mean_x) + n.y * (v.y - mean_y) + n.z * (v.z - mean_z);  // eq. 6
-    const LinkRow<Scalar> link_row(blend, v, n);
+    const LaneVector<Scalar> lever = {v.x - motions.origin.x(), v.y - motions.origin.y(),
+                                      v.z - motions.origin.z()};
+    const LinkRow<Scalar> link_row(blend, lever, n);
     for (int k = 0; k < N; ++k)
       link_row.Write(q[k], Load(s.weights[k], slot), &row[kTwistSize * k]);
     energy += r * r;
@@ -122,19 +138,19 @@ void LinkEquations<Scalar>::AddLanes(const Patch& patch, const Surface<Scalar>& 
 
 template <class Scalar>
 void LinkEquations<Scalar>::AddPatch(int patch, const Surface<Scalar>& surface,
-                                     const BoneMotions<Scalar>& bones,
+                                     const LinkMotions<Scalar>& motions,
                                      const Observations<Scalar>& observations) {
   const Patch& p = surface.layout.patches[patch];
   PatchSums& sums = sums_[patch];
   switch (p.influences) {
     case 1:
-      return AddLanes<1>(p, surface, bones, observations, sums);
+      return AddLanes<1>(p, surface, motions, observations, sums);
     case 2:
-      return AddLanes<2>(p, surface, bones, observations, sums);
+      return AddLanes<2>(p, surface, motions, observations, sums);
     case 3:
-      return AddLanes<3>(p, surface, bones, observations, sums);
+      return AddLanes<3>(p, surface, motions, observations, sums);
     default:
-      return AddLanes<4>(p, surface, bones, observations, sums);
+      return AddLanes<4>(p, surface, motions, observations, sums);
   }
 }
 
@@ -177,6 +193,8 @@ void LinkEquations<Scalar>::ReduceToJoints(const SurfaceLayout& layout, const Ki
   equations.gradient.noalias() = twists_.transpose() * link_gradient_;
 }
 
+template LinkMotions<float> LinkMotionsOf<float>(const TreePose&);
+template LinkMotions<double> LinkMotionsOf<double>(const TreePose&);
 template class LinkEquations<float>;
 template class LinkEquations<double>;
 

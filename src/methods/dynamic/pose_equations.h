@@ -27,6 +27,15 @@ struct PoseEquations {
   std::array<int, kBoneCount> observed{};  // of these by the bone of their largest weight
 };
 
+// The bones' motions as the equations need them: about the twists' origin instead of the camera's.
+template <class Scalar>
+struct LinkMotions {
+  Vector3<Scalar> origin;                // camera frame
+  BoneMotions<Scalar> origin_from_rest;  // Translation(−origin) camera_from_rest
+};
+template <class Scalar>
+LinkMotions<Scalar> LinkMotionsOf(const TreePose& pose);
+
 template <class Scalar>
 class LinkEquations {
  public:
@@ -34,7 +43,7 @@ class LinkEquations {
 
   // r_i = n_iᵀ (v_i − p̄_i) (eq. 6) of the observed vertices of one patch. Patches may be added on
   // different threads.
-  void AddPatch(int patch, const Surface<Scalar>& surface, const BoneMotions<Scalar>& bones,
+  void AddPatch(int patch, const Surface<Scalar>& surface, const LinkMotions<Scalar>& motions,
                 const Observations<Scalar>& observations);
   // Adds up all patches, in order, and reduces the sums to the joints.
   void ReduceToJoints(const SurfaceLayout& layout, const KinematicTree& tree, const TreePose& pose,
@@ -51,7 +60,7 @@ class LinkEquations {
   };
   template <int N>
   void AddLanes(const Patch& patch, const Surface<Scalar>& surface,
-                const BoneMotions<Scalar>& bones, const Observations<Scalar>& observations,
+                const LinkMotions<Scalar>& motions, const Observations<Scalar>& observations,
                 PatchSums& sums) const;
 
   std::vector<PatchSums> sums_;
