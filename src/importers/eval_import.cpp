@@ -11,6 +11,7 @@
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/progress.h"
+#include "importers/checked_sequence.h"
 #include "importers/eval_file.h"
 #include "sequence/joint_visibility.h"
 #include "sequence/sequence.h"
@@ -310,7 +311,7 @@ EvalImport ImportEvalSequence(const std::vector<fs::path>& files,
       progress.Advance();
     }
   }
-  writer.Finish();
+  PublishChecked(writer, folder, {});
   return result;
 }
 

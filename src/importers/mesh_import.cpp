@@ -11,27 +11,18 @@
 #include "geometry/mesh_io.h"
 #include "geometry/surface_map.h"
 #include "geometry/zbuffer.h"
+#include "importers/checked_sequence.h"
+#include "importers/frame_files.h"
 #include "sequence/joint_visibility.h"
 #include "sequence/sequence.h"
+#include "sequence/view_watch.h"
+#include "verification/verification.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr float kNearestToCamera_m = 0.1f;
-
-std::vector<fs::path> FrameFiles(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (IsMeshFile(entry.path())) files.push_back(entry.path());
-  }
-  if (files.empty())
-    throw DataError(fmt::format("{}: expected a folder of .obj, .ply or .off files, found none",
-                                folder.string()));
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 TriangleMesh ReadScaled(const fs::path& file, double unit_m) {
   TriangleMesh mesh = ReadMesh(file);
@@ -141,8 +132,9 @@ SequenceInfo InfoOf(const MeshSequenceSettings& settings, int frames) {
 void MeshSequenceSettings::Describe(Fields& f) {
   f.Text("title", title, {.meaning = "what the sequence shows"});
   f.File("meshes", meshes,
-         {.meaning = "folder of .obj, .ply or .off files, one for each frame in the order of their "
-                     "names",
+         {.meaning = "folder of .obj, .ply or .off files, one for each frame in the order of the "
+                     "numbers in their names, which may differ in nothing else; `rest` is none of "
+                     "them",
           .required = true});
   f.File("subject", subject,
          {.meaning = "folder of the subject: mesh.ply, subject.json, weights.bin (FORMAT.md)",
@@ -165,17 +157,22 @@ void MeshSequenceSettings::Describe(Fields& f) {
 }
 
 void ImportMeshSequence(const MeshSequenceSettings& settings, const fs::path& folder) {
-  const std::vector<fs::path> files = FrameFiles(settings.meshes);
+  const auto [files, gap_warning] =
+      FindFrameFiles(settings.meshes, IsMeshFile, {settings.rest}, ".obj, .ply or .off files");
   const BodyModel subject = ReadBodyModel(settings.subject);
   const TriangleMesh rest = ReadScaled(settings.rest, settings.unit_m);
+  RequireRestMeshOf(subject, settings.subject, rest, settings.rest);
   const PinholeCamera& camera = settings.view.camera;
   const JointFinder joints(subject, rest);
   ZBuffer zbuffer(camera);
   const auto count = static_cast<int>(files.size());
   SequenceWriter writer(folder, InfoOf(settings, count), subject, rest);
+  ViewWatch watch(camera);
   Progress progress("import " + folder.filename().string(), count);
   for (int i = 0; i < count; ++i) {
-    const std::vector<Vector3f> vertices = ReadFrame(files[i], settings, rest);
+    const std::vector<Vector3f> vertices =
+        ReadFrame(files[static_cast<std::size_t>(i)], settings, rest);
+    watch.Look(vertices, i);
     const DepthImage& depth = zbuffer.Render(vertices, rest.triangles);
     const std::vector<Vector3d> found = joints.Find(vertices);
     RandomStream noise(static_cast<std::uint64_t>(settings.seed), fmt::format("sensor/{}", i));
@@ -183,7 +180,7 @@ void ImportMeshSequence(const MeshSequenceSettings& settings, const fs::path& fo
                   {found, VisibleJoints(found, depth, camera)});
     progress.Advance();
   }
-  writer.Finish();
+  PublishChecked(writer, folder, {gap_warning, watch.Warning(count)});
 }
 
 }  // namespace vitruvia

@@ -30,14 +30,22 @@ Findings CheckRestMeshOf(const SequenceReader& sequence) {
   return CheckRestMesh(sequence.true_rest_mesh(), sequence.subject(), "truth/mesh.ply");
 }
 
+void RefuseErrors(const Findings& findings, const fs::path& shown_as) {
+  for (const Finding& finding : findings) {
+    if (finding.severity == Severity::kError)
+      throw DataError(fmt::format("{}: {}", shown_as.string(), finding.text));
+  }
+}
+
+// Warnings of what came before an error are printed too: they may be its cause.
 std::vector<std::string> Judge(const Findings& findings, const fs::path& shown_as) {
   std::vector<std::string> warnings;
   for (const Finding& finding : findings) {
-    const std::string text = fmt::format("{}: {}", shown_as.string(), finding.text);
-    if (finding.severity == Severity::kError) throw DataError(text);
-    PrintMessage("warning: {}\n", text);
+    if (finding.severity == Severity::kError) continue;
+    PrintMessage("warning: {}: {}\n", shown_as.string(), finding.text);
     warnings.push_back(finding.text);
   }
+  RefuseErrors(findings, shown_as);
   return warnings;
 }
 
@@ -81,6 +89,13 @@ std::vector<std::string> RequireConsistent(const SequenceReader& sequence, Frame
 
 std::vector<std::string> RequireConsistent(const BodyModel& subject, const fs::path& shown_as) {
   return Judge(CheckSubject(subject), shown_as);
+}
+
+void RequireRestMeshOf(const BodyModel& subject, const fs::path& subject_folder,
+                       const TriangleMesh& true_rest, const fs::path& rest_file) {
+  RefuseErrors(CheckSubject(subject), subject_folder);
+  RefuseErrors(CheckRestMesh(true_rest, subject, rest_file.filename().string()),
+               rest_file.parent_path());
 }
 
 }  // namespace vitruvia
