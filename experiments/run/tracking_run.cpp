@@ -9,7 +9,9 @@
 #include "core/progress.h"
 #include "core/timer.h"
 #include "experiments/plan/run_plan.h"
+#include "geometry/mesh.h"
 #include "scoring/score.h"
+#include "tracking/astray.h"
 #include "verification/verification.h"
 
 namespace vitruvia {
@@ -100,6 +102,7 @@ void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
   const SequenceInfo& info = sequence.info();
   ForgetPeakMemory();
   const double before_mb = ResidentMemory_mb();
+  const double diagonal_m = BoundingBoxDiagonal(subject.rest.vertices);
   const std::unique_ptr<Tracker> tracker = MakeTracker(method);
   EstimateWriter writer(folder, subject.rest);
   Progress progress("track " + method.method, info.frames);
@@ -108,8 +111,10 @@ void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
     DepthFrame frame{i, i / info.fps, sequence.ReadDepth(i)};
     prepare(frame);
     const Stopwatch watch;
-    const TrackResult result = tracker->TrackFrame(frame);
-    writer.Append(result, watch.ElapsedMs());
+    TrackResult result = tracker->TrackFrame(frame);
+    const double frame_ms = watch.ElapsedMs();
+    MarkAstray(frame, info.camera, diagonal_m, result);
+    writer.Append(result, frame_ms);
     progress.Advance();
   }
   writer.Finish(std::max(0.0, PeakMemory_mb() - before_mb));

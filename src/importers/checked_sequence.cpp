@@ -15,8 +15,7 @@ void PublishChecked(SequenceWriter& writer, const fs::path& folder,
     all.push_back(warning);
   }
   const fs::path staged = writer.Complete();
-  for (std::string& found :
-       RequireConsistent(SequenceReader(staged), FrameSelection::kAll, folder))
+  for (std::string& found : RequireConsistent(SequenceReader(staged), FrameSelection::kAll, folder))
     all.push_back(std::move(found));
   if (!all.empty()) writer.Note("warnings", all);
   writer.Publish();

@@ -7,9 +7,8 @@
 namespace vitruvia {
 
 void ViewWatch::Look(const std::vector<Vector3f>& vertices_in_camera, int frame) {
-  const auto outside =
-      std::count_if(vertices_in_camera.begin(), vertices_in_camera.end(),
-                    [this](const Vector3f& p) { return !camera_.InView(p); });
+  const auto outside = std::count_if(vertices_in_camera.begin(), vertices_in_camera.end(),
+                                     [this](const Vector3f& p) { return !camera_.InView(p); });
   if (outside == 0) return;
   if (frames_ == 0) first_ = frame;
   ++frames_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/camera.h"
+#include "geometry/mesh.h"
 
 namespace vitruvia {
 

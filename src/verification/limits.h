@@ -32,6 +32,8 @@ inline constexpr double kTurnedRestError_m = 0.004;     // mean distance from wh
 // True surface.
 inline constexpr double kEdgeScaleWithin = 0.25;  // median edge, posed / rest
 inline constexpr double kEdgesKeptShare = 0.7;    // of edges within a factor 2 of the median
+inline constexpr double kStrayEdge_m = 0.5;       // of one edge, posed …
+inline constexpr double kStrayEdgeRatio = 10.0;   // … and this many times its length at rest
 inline constexpr double kVolumeShare = 0.2;       // |posed / rest| of a volume that has a sign
 
 // True joints.
