@@ -8,12 +8,14 @@
 namespace vitruvia {
 namespace {
 
+constexpr int kEvery = 4;  // pixels along both axes: the middle needs no more
+
 // Without a copy of the points: it would count as the tracker's memory.
 std::optional<Vector3d> MiddleOf(const DepthImage& depth, const PinholeCamera& camera) {
   Vector3d sum = Vector3d::Zero();
   long count = 0;
-  for (int v = 0; v < depth.height(); ++v) {
-    for (int u = 0; u < depth.width(); ++u) {
+  for (int v = 0; v < depth.height(); v += kEvery) {
+    for (int u = 0; u < depth.width(); u += kEvery) {
       const double z = depth(u, v);
       if (!(z > 0.0)) continue;
       sum += camera.Unproject<double>(u, v, z);

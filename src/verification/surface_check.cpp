@@ -27,8 +27,8 @@ std::vector<double> EdgeRatios(const TriangleMesh& rest, const std::vector<Vecto
   return ratios;
 }
 
-std::optional<Finding> ShapeProblem(const TriangleMesh& rest, const std::vector<Vector3f>& posed,
-                                    int frame) {
+std::optional<Finding> EdgeProblem(const TriangleMesh& rest, const std::vector<Vector3f>& posed,
+                                   int frame) {
   const std::vector<double> ratios = EdgeRatios(rest, posed);
   if (ratios.empty()) return std::nullopt;
   const double ratio = Quantile(ratios, 0.5);
@@ -44,6 +44,11 @@ std::optional<Finding> ShapeProblem(const TriangleMesh& rest, const std::vector<
         "{}: frame {}: the vertices are {} for truth/mesh.ply: edges have {:.4g} "
         "times their length at rest in the median{}",
         kVertices, frame, TimesTooLarge(ratio), ratio, LengthUnitCause(ratio));
+  return std::nullopt;
+}
+
+std::optional<Finding> SideProblem(const TriangleMesh& rest, const std::vector<Vector3f>& posed,
+                                   int frame) {
   const double at_rest = EnclosedVolume(rest);
   const double now = EnclosedVolume({posed, rest.triangles});
   if (at_rest > 0.0 && now < -kVolumeShare * at_rest)
@@ -67,7 +72,8 @@ struct StrayVertices {
   std::int32_t vertex = 0;
   double edge_m = 0.0, rest_edge_m = 0.0;
 
-  void Look(const TriangleMesh& rest, const std::vector<Vector3f>& posed, int frame) {
+  // Whether this frame has one.
+  bool Look(const TriangleMesh& rest, const std::vector<Vector3f>& posed, int frame) {
     for (const Triangle& triangle : rest.triangles) {
       for (std::size_t k = 0; k < 3; ++k) {
         const std::int32_t a = triangle[k], b = triangle[(k + 1) % 3];
@@ -81,9 +87,10 @@ struct StrayVertices {
           edge_m = length_m;
           rest_edge_m = at_rest_m;
         }
-        return;
+        return true;
       }
     }
+    return false;
   }
 };
 
@@ -207,9 +214,11 @@ Findings CheckTrueSurface(const SequenceReader& sequence, const std::vector<int>
   StrayVertices strays;
   for (const int frame : frames) {
     const std::vector<Vector3f> vertices = sequence.ReadTrueVertices(frame);
-    if (const auto problem = ShapeProblem(sequence.true_rest_mesh(), vertices, frame))
+    const TriangleMesh& rest = sequence.true_rest_mesh();
+    if (const auto problem = EdgeProblem(rest, vertices, frame)) return {*problem};
+    const bool has_strays = strays.Look(rest, vertices, frame);  // these alone can turn a volume
+    if (const auto problem = has_strays ? std::nullopt : SideProblem(rest, vertices, frame))
       return {*problem};
-    strays.Look(sequence.true_rest_mesh(), vertices, frame);
     if (has_joints) AddFrame(skin, sequence.true_joints(frame), vertices, places);
   }
   if (const auto problem = JointProblem(places, frames.size())) return {*problem};

@@ -34,8 +34,10 @@ void AddTo(Hash64& hash, double value) { hash.Add(&value, sizeof value); }
 
 template <class Derived>
 void AddTo(Hash64& hash, const Eigen::DenseBase<Derived>& values) {
-  for (const auto value : values.derived().template cast<double>().eval().reshaped())
-    AddTo(hash, value);
+  for (Eigen::Index column = 0; column < values.cols(); ++column) {
+    for (Eigen::Index row = 0; row < values.rows(); ++row)
+      AddTo(hash, static_cast<double>(values.derived()(row, column)));
+  }
 }
 
 void AddTo(Hash64& hash, const std::vector<Vector3f>& points) {
@@ -82,7 +84,8 @@ std::string MeaningOf(const SequenceReader& sequence) {
     AddTo(hash, value);
   for (const std::string& joint : info.joints) hash.Add(joint);
   for (int i = 0; i < info.frames; ++i) {
-    for (const float z : sequence.ReadDepth(i).pixels()) AddTo(hash, z);
+    const DepthImage depth = sequence.ReadDepth(i);
+    for (const float z : depth.pixels()) AddTo(hash, z);
     if (info.surface) AddTo(hash, sequence.ReadTrueVertices(i));
     if (info.joints.empty()) continue;
     const JointTruth& truth = sequence.true_joints(i);
@@ -102,8 +105,8 @@ Reading Verified(const fs::path& folder) {
   VerifySequence(folder);
   const SequenceReader sequence(folder);
   Reading reading{MeaningOf(sequence), RequireConsistent(sequence, FrameSelection::kAll, folder)};
-  for (const Json& warning : sequence.info().provenance.value("warnings", Json::array()))
-    reading.warnings.push_back(warning.dump());
+  const Json& provenance = sequence.info().provenance;
+  if (provenance.contains("warnings")) reading.warnings.push_back(provenance.at("warnings").dump());
   return reading;
 }
 

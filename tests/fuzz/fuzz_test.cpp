@@ -18,7 +18,7 @@ TEST_P(Mutants, AreRefusedOrReadAsTheyAre) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, Mutants, testing::ValuesIn(MutatedFormats()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
 }  // namespace vitruvia

@@ -170,8 +170,11 @@ bool SameShape(const Json& whole, const Json& changed, const std::string& place,
   if (!place.empty() && rules.is_free(place)) return true;
   if (!SameType(whole, changed)) return false;
   if (whole.is_array()) {
-    for (std::size_t i = 0; i < std::min(whole.size(), changed.size()); ++i) {
-      if (!SameShape(whole[i], changed[i], fmt::format("{}/{}", place, i), rules)) return false;
+    for (std::size_t i = 0; i < changed.size(); ++i) {  // perhaps of another length or order
+      const bool is_like_one = std::any_of(whole.begin(), whole.end(), [&](const Json& item) {
+        return SameShape(item, changed[i], fmt::format("{}/{}", place, i), rules);
+      });
+      if (!is_like_one) return false;
     }
     return true;
   }
