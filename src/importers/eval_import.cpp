@@ -233,6 +233,14 @@ SequenceInfo InfoOf(const EvalImport& imported, const std::vector<fs::path>& fil
   return info;
 }
 
+std::string JumpWarning(int jumps, int frames, const std::string& where) {
+  if (jumps == 0) return "";
+  return fmt::format(
+      "{}: {} of {} frames do not have the number after their predecessor's: frames on both sides "
+      "are taken as neighbours in time",
+      where, jumps, frames);
+}
+
 }  // namespace
 
 void EvalJointName::Describe(Fields& f) {
@@ -311,7 +319,7 @@ EvalImport ImportEvalSequence(const std::vector<fs::path>& files,
       progress.Advance();
     }
   }
-  PublishChecked(writer, folder, {});
+  PublishChecked(writer, folder, {JumpWarning(result.jumps, survey.frames, where)});
   return result;
 }
 
