@@ -13,6 +13,7 @@
 #include "geometry/zbuffer.h"
 #include "importers/checked_sequence.h"
 #include "importers/frame_files.h"
+#include "math/rigid.h"
 #include "sequence/joint_visibility.h"
 #include "sequence/sequence.h"
 #include "sequence/view_watch.h"
