@@ -6,6 +6,7 @@
 
 #include "geometry/camera.h"
 #include "geometry/image.h"
+#include "math/rigid.h"
 #include "sequence/sequence.h"
 #include "support/tiny_body.h"
 
