@@ -74,8 +74,10 @@ inline constexpr double kCauseGain = 2.0;             // and this many times wha
 inline constexpr double kNearestBody_m = 0.2, kFarthestBody_m = 20.0;  // median depth
 inline constexpr double kApparentSize = 1.6;  // cloud / subject, either way
 
-// How many frames are looked at before a run, and for the cause of a disagreement.
-inline constexpr int kSampledFrames = 8;
+// How many frames are looked at before a run, so that it takes a few percent of the run's time, and
+// for the cause of a disagreement.
+inline constexpr int kFramesPerSample = 40;  // one of so many is looked at before a run …
+inline constexpr int kFewestSampledFrames = 3, kMostSampledFrames = 8;  // … within these
 inline constexpr int kFramesForCause = 4;
 
 }  // namespace vitruvia::verification_limits

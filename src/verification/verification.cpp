@@ -18,6 +18,12 @@ bool HasError(const Findings& findings) {
                      [](const Finding& f) { return f.severity == Severity::kError; });
 }
 
+int CountOf(FrameSelection selection, int frames) {
+  using namespace verification_limits;
+  if (selection == FrameSelection::kAll) return frames;
+  return std::clamp(frames / kFramesPerSample, kFewestSampledFrames, kMostSampledFrames);
+}
+
 Findings CheckSubjectOf(const SequenceReader& sequence) {
   if (!sequence.info().subject) return {};
   Findings findings = CheckSubject(sequence.subject());
@@ -61,9 +67,8 @@ std::vector<int> SpreadFrames(int frames, int count) {
 }
 
 Findings FindInconsistencies(const SequenceReader& sequence, FrameSelection selection) {
-  const int count = sequence.info().frames;
-  const std::vector<int> frames = SpreadFrames(
-      count, selection == FrameSelection::kAll ? count : verification_limits::kSampledFrames);
+  const std::vector<int> frames =
+      SpreadFrames(sequence.info().frames, CountOf(selection, sequence.info().frames));
   const std::function<Findings()> checks[] = {
       [&] { return CheckCamera(sequence.info().camera); },
       [&] { return CheckSubjectOf(sequence); },
