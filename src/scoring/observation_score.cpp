@@ -117,6 +117,7 @@ void ScoreLimbs(const EstimateReader& estimate, nlohmann::json& row) {
     for (std::size_t side = 0; side < 2; ++side) {
       const std::vector<double> lengths = LimbLengths(estimate, side == 0 ? bone : mirror);
       medians[side] = Quantile(lengths, 0.5);
+      if (medians[side] == 0.0) return;  // the method finds no joints
       for (const double length : lengths)
         change = std::max(change, std::abs(length / medians[side] - 1.0));
     }
