@@ -159,6 +159,14 @@ FloorPlane Refined(const FloorPlane& plane, const std::vector<Vector3f>& points,
   return refined;
 }
 
+std::vector<Vector3f> LowerHalf(std::vector<Vector3f> points) {
+  const auto middle = points.begin() + static_cast<std::ptrdiff_t>(points.size() / 2);
+  std::nth_element(points.begin(), middle, points.end(),
+                   [](const Vector3f& a, const Vector3f& b) { return a.y() > b.y(); });
+  points.erase(middle, points.end());
+  return points;
+}
+
 // RANSAC: the plane that most points support, among those that are level enough, below the camera
 // and have nearly nothing under them.
 std::optional<FloorPlane> FindFloor(const std::vector<const DepthImage*>& frames,
@@ -170,10 +178,11 @@ std::optional<FloorPlane> FindFloor(const std::vector<const DepthImage*>& frames
   const double least = s.floor.least_share * static_cast<double>(points.size());
   const double most_below = s.floor.below_share * static_cast<double>(points.size());
   const double level = std::cos(s.floor.tilt_deg * std::numbers::pi / 180.0);
+  const std::vector<Vector3f> low = LowerHalf(points);
   std::optional<FloorPlane> best;
   int most = 0;
-  for (int trial = 0; trial < s.floor.trials && points.size() >= 3; ++trial) {
-    const auto any = [&]() -> const Vector3f& { return points[random.Index(points.size())]; };
+  for (int trial = 0; trial < s.floor.trials && low.size() >= 3; ++trial) {
+    const auto any = [&]() -> const Vector3f& { return low[random.Index(low.size())]; };
     const Vector3f &a = any(), &b = any(), &c = any();
     const std::optional<FloorPlane> plane = PlaneThrough(a, b, c);
     if (!plane || -plane->up.y() < level || plane->height_m <= 0.0f) continue;

@@ -67,11 +67,13 @@ void FloorSettings::Describe(Fields& f) {
             .min = 0.0,
             .max = 1.0,
             .origin = Origin::kGuessed});
-  f.Integer("trials", trials,
-            {.meaning = "planes through three random points that are tried",
-             .min = 1,
-             .max = 100000,
-             .origin = Origin::kGuessed});
+  f.Integer(
+      "trials", trials,
+      {.meaning = "planes through three random points of the lower half that are tried; most are "
+                  "not level and cost nothing",
+       .min = 1,
+       .max = 10000000,
+       .origin = Origin::kGuessed});
   f.Integer("points", points,
             {.meaning = "points of the sampled frames that a plane is held against",
              .min = 100,

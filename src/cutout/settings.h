@@ -17,7 +17,7 @@ struct BackgroundSettings {
   BackgroundSource source = BackgroundSource::kRecording;
   double far_share = 0.9;
   double seen_share = 0.5;
-  double margin_m = 0.02;
+  double margin_m = 0.01;
   int samples = 60;
 
   void Describe(Fields& fields);
@@ -29,8 +29,8 @@ struct FloorSettings {
   double within_m = 0.02;
   double least_share = 0.03;
   double below_share = 0.05;
-  int trials = 500;
-  int points = 20000;
+  int trials = 20000;
+  int points = 5000;
   double margin_m = 0.01;
   double certain_m = 0.10;
   double reach_m = 0.12;

@@ -11,7 +11,7 @@
 namespace vitruvia {
 namespace {
 
-constexpr int kTileWidth = 320;  // pixels
+constexpr int kTileWidth = 320, kOnlyTileWidth = 960;  // pixels; of many frames and of one
 constexpr int kColumns = 4;
 constexpr int kBorder = 4;
 
@@ -95,11 +95,11 @@ void WriteNumbers(const Image<std::uint8_t>& people, double scale, cv::Mat& tile
   }
 }
 
-cv::Mat Tile(const SheetFrame& frame, const ChosenPerson& chosen) {
-  const double scale = kTileWidth / double(frame.depth.width());
+cv::Mat Tile(const SheetFrame& frame, const ChosenPerson& chosen, int width) {
+  const double scale = width / double(frame.depth.width());
   cv::Mat tile;
   cv::resize(Colored(frame, chosen), tile,
-             {kTileWidth, std::max(1, static_cast<int>(scale * frame.depth.height()))}, 0, 0,
+             {width, std::max(1, static_cast<int>(scale * frame.depth.height()))}, 0, 0,
              scale < 1.0 ? cv::INTER_AREA : cv::INTER_NEAREST);
   WriteNumbers(frame.people, scale, tile);
   Write("frame " + std::to_string(frame.frame) + (frame.is_unsure ? ", unsure" : ""), {8, 18}, 0.45,
@@ -129,7 +129,8 @@ Image<std::uint8_t> Unpacked(const PackedLabels& packed) {
 std::string CutoutSheet(const std::vector<SheetFrame>& frames, const ChosenPerson& chosen) {
   Require(!frames.empty(), "CutoutSheet: no frames");
   std::vector<cv::Mat> tiles;
-  for (const SheetFrame& frame : frames) tiles.push_back(Tile(frame, chosen));
+  const int tile_width = frames.size() == 1 ? kOnlyTileWidth : kTileWidth;
+  for (const SheetFrame& frame : frames) tiles.push_back(Tile(frame, chosen, tile_width));
   const int columns = std::min(kColumns, static_cast<int>(tiles.size()));
   const int rows = (static_cast<int>(tiles.size()) + columns - 1) / columns;
   const int width = tiles.front().cols, height = tiles.front().rows;

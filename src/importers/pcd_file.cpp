@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <limits>
-#include <map>
 #include <string>
 #include <string_view>
 
@@ -31,6 +29,11 @@ struct Header {
   std::size_t begin = 0;  // of the points
 
   std::size_t Points() const { return width * height; }
+  std::size_t Numbers() const {
+    std::size_t numbers = 0;
+    for (const Field& field : fields) numbers += field.count;
+    return numbers;
+  }
   std::size_t PointBytes() const {
     std::size_t bytes = 0;
     for (const Field& field : fields) bytes += field.Bytes();
@@ -96,9 +99,9 @@ void RequireOrganised(const Header& header, const std::string& where) {
         fmt::format("{}: {}×{} points are no image", where, header.width, header.height));
 }
 
-// The number of a field, and where its bytes begin in a point.
+// Of a field in a point: how many numbers, and how many bytes, stand before it.
 struct Place {
-  std::size_t index = 0, offset = 0;
+  std::size_t numbers = 0, bytes = 0;
 };
 
 std::array<Place, 3> CoordinatePlaces(const Header& header, const std::string& where) {
@@ -114,9 +117,10 @@ std::array<Place, 3> CoordinatePlaces(const Header& header, const std::string& w
           fmt::format("{}: field {}: expected one number of 4 bytes, type F; found {} of "
                       "{} bytes, type {}",
                       where, name, field->count, field->size, field->type));
-    places[axis].index = static_cast<std::size_t>(field - header.fields.begin());
-    for (auto before = header.fields.begin(); before != field; ++before)
-      places[axis].offset += before->Bytes();
+    for (auto before = header.fields.begin(); before != field; ++before) {
+      places[axis].numbers += before->count;
+      places[axis].bytes += before->Bytes();
+    }
   }
   return places;
 }
@@ -140,7 +144,7 @@ void ReadBinary(std::string_view bytes, const Header& header, const std::array<P
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis)
       points[i][axis] =
-          FloatAt(bytes.data() + i * stride + places[static_cast<std::size_t>(axis)].offset);
+          FloatAt(bytes.data() + i * stride + places[static_cast<std::size_t>(axis)].bytes);
   }
 }
 
@@ -189,7 +193,7 @@ void ReadCompressed(std::string_view bytes, const Header& header,
     throw DataError(fmt::format("{}: damaged: its compressed points do not unpack to {} bytes",
                                 where, expected));
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const char* column = unpacked.data() + places[axis].offset * header.Points();
+    const char* column = unpacked.data() + places[axis].bytes * header.Points();
     for (std::size_t i = 0; i < points.size(); ++i)
       points[i][static_cast<int>(axis)] = FloatAt(column + 4 * i);
   }
@@ -203,15 +207,13 @@ void ReadAscii(std::string_view text, const Header& header, const std::array<Pla
       throw DataError(
           fmt::format("{}: cut short: expected {} lines of points", where, points.size()));
     const std::vector<std::string_view> words = lines.Words();
-    if (words.size() < header.fields.size())
-      lines.Fail(fmt::format("expected {} numbers, got {}", header.fields.size(), words.size()));
+    if (words.size() < header.Numbers())
+      lines.Fail(fmt::format("expected {} numbers, got {}", header.Numbers(), words.size()));
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::string_view word = words[places[axis].index];
+      const std::string_view word = words[places[axis].numbers];
       const auto value = ParseNumber(word);
-      if (!value && word != "nan" && word != "-nan" && word != "NaN")
-        lines.Fail(fmt::format("expected a number, got \"{}\"", word));
-      point[static_cast<int>(axis)] =
-          value ? static_cast<float>(*value) : std::numeric_limits<float>::quiet_NaN();
+      if (!value) lines.Fail(fmt::format("expected a number, got \"{}\"", word));
+      point[static_cast<int>(axis)] = static_cast<float>(*value);
     }
   }
 }

@@ -625,12 +625,19 @@ std::vector<Metric> ObservationErrors() {
        .better = Better::kLower,
        .definition = "The 95th percentile of the distances whose mean is view_mean_m."},
       {.key = "fit_rank_correlation",
-       .label = "rank correlation of misfit and true error",
+       .label = "rank correlation of misfit and visible error",
        .decimals = 2,
        .better = Better::kHigher,
        .definition =
-           "Spearman correlation over the frames of a run between fit_m and the true error, "
-           "l2_mean_m or two_way_mean_m: how well the misfit tells good frames from bad ones."},
+           "Spearman correlation over the frames of a run between fit_m and the true error of the "
+           "visible surface, l2_mean_visible_m or two_way_visible_mean_m: how well the misfit "
+           "orders frames by what the camera could show."},
+      {.key = "fit_rank_correlation_whole",
+       .label = "rank correlation of misfit and whole error",
+       .decimals = 2,
+       .better = Better::kHigher,
+       .definition = "As fit_rank_correlation, with the error of the whole surface, l2_mean_m or "
+                     "two_way_mean_m; nothing observed tells where hidden parts are."},
   };
 }
 

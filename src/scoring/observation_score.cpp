@@ -128,11 +128,13 @@ void ScoreLimbs(const EstimateReader& estimate, nlohmann::json& row) {
   row["limb_asymmetry"] = asymmetry;
 }
 
-// How well the misfit tells what the true error is, where that is known.
-void CompareWithTruth(RunRecord& record) {
-  const auto true_error = record.frames.contains("l2_mean_m")
-                              ? record.frames.find("l2_mean_m")
-                              : record.frames.find("two_way_mean_m");
+// How well the misfit orders the frames by a true error, where that is known.
+void CompareWithTruth(const char* error, const char* error_of_own_surfaces, const char* key,
+                      RunRecord& record) {
+  const auto corresponding = record.frames.find(error);
+  const auto true_error = corresponding != record.frames.end()
+                              ? corresponding
+                              : record.frames.find(error_of_own_surfaces);
   if (true_error == record.frames.end()) return;
   std::vector<double> misfits, errors;
   const std::vector<double>& fit = record.frames.at("fit_m");
@@ -142,7 +144,7 @@ void CompareWithTruth(RunRecord& record) {
     errors.push_back(true_error->second[i]);
   }
   const double correlation = RankCorrelation(misfits, errors);
-  if (!std::isnan(correlation)) record.summary["fit_rank_correlation"] = correlation;
+  if (!std::isnan(correlation)) record.summary[key] = correlation;
 }
 
 }  // namespace
@@ -152,7 +154,8 @@ void ScoreObservation(const SequenceReader& sequence, const EstimateReader& esti
   ScoreFit(sequence, estimate, record);
   ScoreViews(sequence, estimate, record);
   ScoreLimbs(estimate, record.summary);
-  CompareWithTruth(record);
+  CompareWithTruth("l2_mean_visible_m", "two_way_visible_mean_m", "fit_rank_correlation", record);
+  CompareWithTruth("l2_mean_m", "two_way_mean_m", "fit_rank_correlation_whole", record);
 }
 
 }  // namespace vitruvia

@@ -85,7 +85,8 @@ TEST(Orientation, ResizingDoesNotBridgeAnEdge) {
   }
   OrientationSettings s;
   s.resize = {32, 24, 0.03};
-  for (const float z : Oriented(image, s).pixels()) EXPECT_TRUE(z == 1.0f || z == 3.0f) << z;
+  const DepthImage resized = Oriented(image, s);
+  for (const float z : resized.pixels()) EXPECT_TRUE(z == 1.0f || z == 3.0f) << z;
 }
 
 TEST(Orientation, CropOutsideTheImageIsRefused) {

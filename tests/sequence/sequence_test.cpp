@@ -313,7 +313,8 @@ TEST_F(Sequence, WriterRefusesWhatDoesNotFit) {
   SequenceWriter writer(folder_, SmallInfo(), body, body.rest);
   const std::vector<Vector3f> vertices = SmallVertices(body, 0);
   EXPECT_THROW(writer.Append(DepthImage(16, 13), vertices, SmallJoints(0)), std::invalid_argument);
-  EXPECT_THROW(writer.Append(SmallDepth(0), {}, SmallJoints(0)), std::invalid_argument);
+  EXPECT_THROW(writer.Append(SmallDepth(0), std::vector<Vector3f>{}, SmallJoints(0)),
+               std::invalid_argument);
   EXPECT_THROW(writer.Append(SmallDepth(0), vertices, JointTruth{}), std::invalid_argument);
   std::vector<Vector3f> broken = vertices;
   broken[7].y() = std::numeric_limits<float>::quiet_NaN();
@@ -350,8 +351,8 @@ TEST_F(Sequence, RefusesWrongHeaders) {
   EXPECT_THAT(refusal_with("\"fx\": 20.5,", ""), HasSubstr("camera.fx: missing"));
   EXPECT_THAT(refusal_with("\"fx\": 20.5", "\"fx\": \"20.5\""), HasSubstr("expected a number"));
   EXPECT_THAT(refusal_with("0.0005", "-1"), HasSubstr("depth_unit_m"));
-  EXPECT_THAT(refusal_with("\"version\": 1", "\"version\": 2"),
-              HasSubstr("version 2: a newer version of vitruvia wrote the file; this one reads 1"));
+  EXPECT_THAT(refusal_with("\"version\": 1", "\"version\": 3"),
+              HasSubstr("version 3: a newer version of vitruvia wrote the file; this one reads 2"));
   EXPECT_THAT(refusal_with("vitruvia-sequence", "video"),
               HasSubstr("format: expected \"vitruvia-sequence\", got \"video\""));
   EXPECT_THAT(refusal_with("\"left_hip\"", "\"neck\""), HasSubstr("\"neck\" stands twice"));
