@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cutout/touching.h"
 #include "math/statistics.h"
 
 namespace vitruvia {
@@ -57,7 +58,9 @@ double AreaRound(const std::vector<double>& areas, std::size_t frame, int window
 }  // namespace
 
 Pieces PiecesOf(const DepthImage& depth, const Room& room, const CutoutSettings& settings) {
-  return FindPieces(depth, ForegroundOf(depth, room, settings), room, settings);
+  Pieces pieces = FindPieces(depth, ForegroundOf(depth, room, settings), room, settings);
+  DivideTouchingPeople(depth, room, settings, pieces);
+  return pieces;
 }
 
 std::optional<ChosenPerson> ChoosePerson(const std::vector<FollowedPerson>& people,

@@ -120,7 +120,8 @@ void PeopleFollower::AssignParts(const Pieces& pieces) {
     if (!owners_[p].empty()) bodies.push_back(p);
   }
   for (std::size_t p = 0; p < owners_.size(); ++p) {
-    if (!owners_[p].empty() || pieces.pieces[p].person_sized) continue;
+    if (!owners_[p].empty() || pieces.pieces[p].area_m2 >= settings_.person.size.least_area_m2)
+      continue;
     float nearest = static_cast<float>(settings_.following.attach_m);
     for (const std::size_t body : bodies) {
       const float distance = Distance(pieces.pieces[p].box, pieces.pieces[body].box);

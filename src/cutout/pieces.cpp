@@ -92,44 +92,53 @@ int LabelPixels(const MaskImage& foreground, DisjointSets& sets, Image<std::int1
 }
 
 // Keeps the pieces that are large enough, the largest first.
-Pieces Sorted(const std::vector<Piece>& pieces, Image<std::int16_t> labels, double least_area_m2) {
+void Sort(double least_area_m2, Pieces& found) {
+  const std::vector<Piece> pieces = std::move(found.pieces);
   std::vector<int> order(pieces.size());
   std::iota(order.begin(), order.end(), 0);
   const auto at = [&](int i) -> const Piece& { return pieces[static_cast<std::size_t>(i)]; };
   std::stable_sort(order.begin(), order.end(),
                    [&](int a, int b) { return at(a).area_m2 > at(b).area_m2; });
-  Pieces kept;
+  found.pieces.clear();
   std::vector<std::int16_t> new_label(pieces.size() + 1, 0);
   for (const int i : order) {
     if (at(i).area_m2 < least_area_m2) break;
-    kept.pieces.push_back(at(i));
-    new_label[static_cast<std::size_t>(i) + 1] = static_cast<std::int16_t>(kept.pieces.size());
+    found.pieces.push_back(at(i));
+    new_label[static_cast<std::size_t>(i) + 1] = static_cast<std::int16_t>(found.pieces.size());
   }
-  for (std::int16_t& label : labels.pixels()) label = new_label[static_cast<std::size_t>(label)];
-  kept.labels = std::move(labels);
-  return kept;
+  for (std::int16_t& label : found.labels.pixels())
+    label = new_label[static_cast<std::size_t>(label)];
 }
 
 }  // namespace
 
+void MeasurePieces(const DepthImage& depth, const Room& room, const CutoutSettings& settings,
+                   Pieces& pieces) {
+  pieces.pieces.assign(pieces.pieces.size(), {});
+  for (int v = 0; v < depth.height(); ++v) {
+    for (int u = 0; u < depth.width(); ++u) {
+      const int label = pieces.labels(u, v);
+      if (label == 0) continue;
+      Add(room.camera.Unproject(static_cast<float>(u), static_cast<float>(v), depth(u, v)), room,
+          pieces.pieces[static_cast<std::size_t>(label - 1)]);
+    }
+  }
+  for (Piece& piece : pieces.pieces) {
+    piece.mean_depth_m /= std::max(1, piece.pixels);
+    piece.person_sized = IsPersonSized(piece, settings.person.size);
+  }
+  Sort(settings.pieces.least_area_m2, pieces);
+}
+
 Pieces FindPieces(const DepthImage& depth, const MaskImage& foreground, const Room& room,
                   const CutoutSettings& settings) {
   Joining joining(depth, foreground, room, settings);
-  Image<std::int16_t> labels(depth.width(), depth.height());
-  std::vector<Piece> pieces(
-      static_cast<std::size_t>(LabelPixels(foreground, joining.Joined(), labels)));
-  for (int v = 0; v < depth.height(); ++v) {
-    for (int u = 0; u < depth.width(); ++u) {
-      if (labels(u, v) == 0) continue;
-      Add(room.camera.Unproject(static_cast<float>(u), static_cast<float>(v), depth(u, v)), room,
-          pieces[static_cast<std::size_t>(labels(u, v) - 1)]);
-    }
-  }
-  for (Piece& piece : pieces) {
-    piece.mean_depth_m /= piece.pixels;
-    piece.person_sized = IsPersonSized(piece, settings.person.size);
-  }
-  return Sorted(pieces, std::move(labels), settings.pieces.least_area_m2);
+  Pieces pieces;
+  pieces.labels = Image<std::int16_t>(depth.width(), depth.height());
+  const int count = LabelPixels(foreground, joining.Joined(), pieces.labels);
+  pieces.pieces.resize(static_cast<std::size_t>(count));
+  MeasurePieces(depth, room, settings, pieces);
+  return pieces;
 }
 
 }  // namespace vitruvia

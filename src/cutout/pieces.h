@@ -31,4 +31,9 @@ struct Pieces {
 Pieces FindPieces(const DepthImage& depth, const MaskImage& foreground, const Room& room,
                   const CutoutSettings& settings);
 
+// Measures the pieces that the labels say and sorts them by area; pieces that are too small are
+// dropped, with their labels.
+void MeasurePieces(const DepthImage& depth, const Room& room, const CutoutSettings& settings,
+                   Pieces& pieces);
+
 }  // namespace vitruvia

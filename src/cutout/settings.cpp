@@ -153,6 +153,38 @@ void PersonSizeSettings::Describe(Fields& f) {
             .origin = Origin::kGuessed});
 }
 
+void TouchingSettings::Describe(Fields& f) {
+  f.Number("head_drop_m", head_drop_m,
+           {.meaning = "height by which a head sticks out of the outline between it and the next",
+            .unit = "m",
+            .min = 0.01,
+            .max = 1.0,
+            .origin = Origin::kGuessed});
+  f.Number("least_head_m2", least_head_m2,
+           {.meaning = "least area of a head above that height; a raised hand has less",
+            .unit = "m²",
+            .min = 0.0,
+            .max = 1.0,
+            .origin = Origin::kGuessed});
+  f.Number("apart_m", apart_m,
+           {.meaning = "least horizontal distance between two heads",
+            .unit = "m",
+            .min = 0.0,
+            .max = 2.0,
+            .origin = Origin::kGuessed});
+  f.Number("least_area_m2", least_area_m2,
+           {.meaning = "least area of each part of a divided piece",
+            .unit = "m²",
+            .min = 0.0,
+            .max = 2.0,
+            .origin = Origin::kGuessed});
+  f.Number("least_height_share", least_height_share,
+           {.meaning = "least height of each part of a divided piece, as a share of the piece's",
+            .min = 0.0,
+            .max = 1.0,
+            .origin = Origin::kGuessed});
+}
+
 void FollowingSettings::Describe(Fields& f) {
   f.Number(
       "same_place_m", same_place_m,
@@ -221,6 +253,7 @@ void PersonSettings::Describe(Fields& f) {
              .min = 0,
              .max = 1e5});
   f.Section("size", size, {.meaning = "sizes that a piece must have to be a person"});
+  f.Section("touching", touching, {.meaning = "how people who touch are told apart"});
 }
 
 void CutoutSettings::Describe(Fields& f) {

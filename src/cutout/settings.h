@@ -33,7 +33,7 @@ struct FloorSettings {
   int points = 5000;
   double margin_m = 0.01;
   double certain_m = 0.10;
-  double reach_m = 0.12;
+  double reach_m = 0.25;
 
   void Describe(Fields& fields);
 };
@@ -52,6 +52,17 @@ struct PersonSizeSettings {
   double least_height_m = 0.5, most_height_m = 2.4;
   double most_width_m = 2.2;
   double least_area_m2 = 0.1;
+
+  void Describe(Fields& fields);
+};
+
+// How people who are one piece are told apart.
+struct TouchingSettings {
+  double head_drop_m = 0.15;
+  double least_head_m2 = 0.015;
+  double apart_m = 0.25;
+  double least_area_m2 = 0.2;
+  double least_height_share = 0.6;
 
   void Describe(Fields& fields);
 };
@@ -78,6 +89,7 @@ struct PersonSettings {
   PersonChoice choose = PersonChoice::kLargest;
   int frame = 0, u = 0, v = 0;
   PersonSizeSettings size;
+  TouchingSettings touching;
 
   void Describe(Fields& fields);
 };

@@ -111,21 +111,6 @@ cv::Mat Tile(const SheetFrame& frame, const ChosenPerson& chosen, int width) {
 
 }  // namespace
 
-PackedLabels Pack(const Image<std::uint8_t>& labels) {
-  const cv::Mat raw(labels.height(), labels.width(), CV_8UC1,
-                    const_cast<std::uint8_t*>(labels.pixels().data()));
-  PackedLabels packed;
-  if (!cv::imencode(".png", raw, packed)) throw RunError("labels cannot be packed as PNG");
-  return packed;
-}
-
-Image<std::uint8_t> Unpacked(const PackedLabels& packed) {
-  const cv::Mat raw = cv::imdecode(packed, cv::IMREAD_UNCHANGED);
-  Image<std::uint8_t> labels(raw.cols, raw.rows);
-  raw.copyTo(cv::Mat(raw.rows, raw.cols, CV_8UC1, labels.pixels().data()));
-  return labels;
-}
-
 std::string CutoutSheet(const std::vector<SheetFrame>& frames, const ChosenPerson& chosen) {
   Require(!frames.empty(), "CutoutSheet: no frames");
   std::vector<cv::Mat> tiles;

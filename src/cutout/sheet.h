@@ -1,5 +1,4 @@
-// Label images packed as PNG, to hold those of a whole recording in memory; and the sheet of
-// pictures that shows a cut.
+// The sheet of pictures that shows a cut.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +8,6 @@
 #include "cutout/cutout.h"
 
 namespace vitruvia {
-
-using PackedLabels = std::vector<std::uint8_t>;  // a PNG file's bytes
-PackedLabels Pack(const Image<std::uint8_t>& labels);
-Image<std::uint8_t> Unpacked(const PackedLabels& packed);
 
 // One picture of a sheet: depth in grey, the chosen person green, other people in other colours
 // with their numbers, a red border where the frame is unsure.

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/progress.h"
 #include "core/worker_team.h"
+#include "cutout/packed_labels.h"
 #include "cutout/sheet.h"
 #include "importers/depth_frames.h"
 #include "importers/depth_recording.h"
@@ -21,6 +22,7 @@ namespace {
 
 constexpr double kUsualFps = 30.0;
 constexpr double kNearestRoom_m = 0.2, kFarthestRoom_m = 20.0;  // median depth of a recording
+constexpr std::size_t kEveryPixel = 97;                         // looked at for that median
 constexpr int kBatch = 16;              // frames that are worked on together
 constexpr int kSheetFrames = 12;        // of the preview
 constexpr int kNamedUnsureFrames = 50;  // in the provenance
@@ -109,7 +111,7 @@ class FrameReader {
 void RequireRoom(const std::vector<DepthImage>& sample, const DepthImportSettings& s) {
   std::vector<double> depths;
   for (const DepthImage& image : sample) {
-    for (std::size_t i = 0; i < image.pixels().size(); i += 5) {
+    for (std::size_t i = 0; i < image.pixels().size(); i += kEveryPixel) {
       if (image.pixels()[i] > 0.0f) depths.push_back(image.pixels()[i]);
     }
   }
@@ -169,27 +171,22 @@ FollowedRecording FollowPeople(const FrameReader& reader, const std::vector<fs::
     const std::size_t count = std::min<std::size_t>(kBatch, files.size() - first);
     std::vector<DepthImage> depths(count);
     std::vector<Pieces> pieces(count);
-    std::vector<Image<std::uint8_t>> people(count);
-    result.labels.resize(first + count);
     team.For(static_cast<int>(count), 1, [&](int begin, int) {
       const auto i = static_cast<std::size_t>(begin);
       depths[i] = reader.Read(files[first + i]);
       pieces[i] = PiecesOf(depths[i], room, settings);
     });
     for (std::size_t i = 0; i < count; ++i) {
-      people[i] = follower.Follow(depths[i], pieces[i]);
+      const Image<std::uint8_t> people = follower.Follow(depths[i], pieces[i]);
+      result.labels.push_back(Pack(people));
       if (static_cast<int>(first + i) == settings.person.frame)
-        result.at_pixel = PersonAt(people[i], settings.person);
+        result.at_pixel = PersonAt(people, settings.person);
       if (pieces[i].pieces.empty()) continue;
       result.largest_piece_m2 = std::max(result.largest_piece_m2, pieces[i].pieces.front().area_m2);
       result.tallest_piece_m =
           std::max(result.tallest_piece_m, double{pieces[i].pieces.front().height_m()});
     }
     writer.Append(depths, team);
-    team.For(static_cast<int>(count), 1, [&](int begin, int) {
-      const auto i = static_cast<std::size_t>(begin);
-      result.labels[first + i] = Pack(people[i]);
-    });
     progress.Advance(static_cast<int>(count));
   }
   result.people = follower.people();

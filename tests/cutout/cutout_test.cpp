@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cutout/sheet.h"
+#include "cutout/packed_labels.h"
 #include "room_views.h"
 
 namespace vitruvia {
@@ -57,6 +57,32 @@ TEST(FindPieces, GoesOnBehindAnArmButNotWhereTheWallShows) {
   CutoutSettings settings;
   settings.far_m = 3.0;
   EXPECT_EQ(PiecesOf(before_wall.Rendered(), EmptyRoom(), settings).pieces.size(), 2u);
+}
+
+// Two people side by side who touch along arms and legs; their heads stick out.
+TEST(DivideTouchingPeople, CutsBetweenHeads) {
+  const auto head = [](double x) { return FrontBox{x - 0.08, x + 0.08, -1.05, -0.7, 3.0}; };
+  const FrontBox bodies{-0.4, 0.4, -0.7, 0.8, 3.0};
+  const DepthImage depth = ViewOf({bodies, head(-0.22), head(0.22)});
+  const Pieces pieces = PiecesIn(depth);
+  ASSERT_EQ(pieces.pieces.size(), 2u);
+  const PinholeCamera camera = RoomCamera();
+  const int left = pieces.labels(static_cast<int>(camera.cx) - 10, 60);
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      if (pieces.labels(u, v) != 0) {
+        ASSERT_EQ(pieces.labels(u, v) == left, u < camera.cx) << u << " " << v;
+      }
+    }
+  }
+}
+
+TEST(DivideTouchingPeople, LeavesARaisedHandWithItsBody) {
+  const FrontBox head{-0.08, 0.08, -1.05, -0.7, 3.0}, body{-0.2, 0.2, -0.7, 0.8, 3.0};
+  const FrontBox thin_arm{0.17, 0.2, -1.15, -0.7, 3.0};
+  EXPECT_EQ(PiecesIn(ViewOf({body, head, thin_arm})).pieces.size(), 1u);
+  const FrontBox shoulder{0.2, 0.6, -0.7, -0.6, 3.0}, thick_arm{0.45, 0.6, -1.1, -0.6, 3.0};
+  EXPECT_EQ(PiecesIn(ViewOf({body, head, shoulder, thick_arm})).pieces.size(), 1u);
 }
 
 TEST(FindPieces, DropsSpecksAndKnowsWhatIsNoPerson) {

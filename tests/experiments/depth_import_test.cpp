@@ -3,7 +3,9 @@
 #include "importers/depth_import.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 
 #include <gmock/gmock.h>
@@ -242,6 +244,41 @@ TEST_F(DepthImport, BadInputIsNamedAndNothingIsWritten) {
   config_ = good;
   WriteWholeFile(files_ / "boxes/007.png", "damaged");
   ExpectRefused(ExitCode::kBadData, {"007.png", "cannot be decoded"});
+}
+
+// One real frame of a Kinect: each of five people who stand side by side can be chosen.
+TEST_F(DepthImport, FivePeopleOfARealFrameAreToldApart) {
+  const char* data = std::getenv("VITRUVIA_DATA");
+  if (data == nullptr) GTEST_SKIP() << "VITRUVIA_DATA is not set";
+  const fs::path cloud = fs::path(data) / "real_depth/five_people.pcd";
+  if (!fs::exists(cloud)) GTEST_SKIP() << cloud << " is not there";
+  const std::vector<std::array<int, 2>> pixels{
+      {90, 280}, {193, 273}, {333, 220}, {427, 220}, {533, 280}};
+  std::vector<MaskImage> masks;
+  for (const auto& [u, v] : pixels) {
+    config_ = {
+        {"images", cloud.string()},
+        {"camera",
+         {{"width", 640}, {"height", 480}, {"fx", 525}, {"fy", 525}, {"cx", 319.5}, {"cy", 239.5}}},
+        {"unit_m", 1.0},
+        {"cutout",
+         {{"background", {{"source", "none"}}},
+          {"far_m", 4.0},
+          {"person", {{"choose", "pixel"}, {"u", u}, {"v", v}}}}}};
+    const CallResult call = Import("person");
+    ASSERT_EQ(call.code, 0) << call.error;
+    masks.push_back(SequenceReader(files_ / "person").ReadMask(0));
+    fs::remove_all(files_ / "person");
+  }
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    for (std::size_t j = 0; j < masks.size(); ++j) {
+      const auto& [u, v] = pixels[j];
+      EXPECT_EQ(masks[i](u, v) != 0, i == j) << "person " << i << " at that of " << j;
+    }
+    const auto kept = std::count(masks[i].pixels().begin(), masks[i].pixels().end(), 255);
+    EXPECT_GT(kept, 15000) << i;
+    EXPECT_LT(kept, 45000) << i;
+  }
 }
 
 }  // namespace
