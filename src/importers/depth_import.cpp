@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "config/json_settings.h"
 #include "core/build_info.h"
@@ -161,36 +162,64 @@ int PersonAt(const Image<std::uint8_t>& people, const PersonSettings& pixel) {
   return people.Contains(pixel.u, pixel.v) ? people(pixel.u, pixel.v) : 0;
 }
 
-// Writes the depth of all frames and follows the people in them.
-FollowedRecording FollowPeople(const FrameReader& reader, const std::vector<fs::path>& files,
-                               const Room& room, double fps, const CutoutSettings& settings,
-                               WorkerTeam& team, SequenceWriter& writer, Progress& progress) {
-  FollowedRecording result;
-  PeopleFollower follower(room, settings, fps);
-  for (std::size_t first = 0; first < files.size(); first += kBatch) {
-    const std::size_t count = std::min<std::size_t>(kBatch, files.size() - first);
-    std::vector<DepthImage> depths(count);
-    std::vector<Pieces> pieces(count);
-    team.For(static_cast<int>(count), 1, [&](int begin, int) {
+// Follows the people of a recording, some frames at a time.
+class RecordingFollower {
+ public:
+  RecordingFollower(const FrameReader& reader, const Room& room, const CutoutSettings& settings,
+                    double fps, WorkerTeam& team)
+      : reader_(reader),
+        room_(room),
+        settings_(settings),
+        team_(team),
+        people_(room, settings, fps) {}
+
+  // Of the files that come next; returns their depth.
+  std::vector<DepthImage> Follow(std::span<const fs::path> files) {
+    std::vector<DepthImage> depths(files.size());
+    std::vector<Pieces> pieces(files.size());
+    team_.For(static_cast<int>(files.size()), 1, [&](int begin, int) {
       const auto i = static_cast<std::size_t>(begin);
-      depths[i] = reader.Read(files[first + i]);
-      pieces[i] = PiecesOf(depths[i], room, settings);
+      depths[i] = reader_.Read(files[i]);
+      pieces[i] = PiecesOf(depths[i], room_, settings_);
     });
-    for (std::size_t i = 0; i < count; ++i) {
-      const Image<std::uint8_t> people = follower.Follow(depths[i], pieces[i]);
-      result.labels.push_back(Pack(people));
-      if (static_cast<int>(first + i) == settings.person.frame)
-        result.at_pixel = PersonAt(people, settings.person);
-      if (pieces[i].pieces.empty()) continue;
-      result.largest_piece_m2 = std::max(result.largest_piece_m2, pieces[i].pieces.front().area_m2);
-      result.tallest_piece_m =
-          std::max(result.tallest_piece_m, double{pieces[i].pieces.front().height_m()});
-    }
-    writer.Append(depths, team);
-    progress.Advance(static_cast<int>(count));
+    for (std::size_t i = 0; i < files.size(); ++i) Add(depths[i], pieces[i]);
+    return depths;
   }
-  result.people = follower.people();
-  return result;
+
+  FollowedRecording Result() {
+    found_.people = people_.people();
+    return std::move(found_);
+  }
+
+ private:
+  void Add(const DepthImage& depth, const Pieces& pieces) {
+    const Image<std::uint8_t> people = people_.Follow(depth, pieces);
+    if (static_cast<int>(found_.labels.size()) == settings_.person.frame)
+      found_.at_pixel = PersonAt(people, settings_.person);
+    found_.labels.push_back(Pack(people));
+    if (pieces.pieces.empty()) return;
+    const Piece& largest = pieces.pieces.front();
+    found_.largest_piece_m2 = std::max(found_.largest_piece_m2, largest.area_m2);
+    found_.tallest_piece_m = std::max(found_.tallest_piece_m, double{largest.height_m()});
+  }
+
+  const FrameReader& reader_;
+  const Room& room_;
+  const CutoutSettings& settings_;
+  WorkerTeam& team_;
+  PeopleFollower people_;
+  FollowedRecording found_;
+};
+
+// Writes the depth of all frames and follows the people in them.
+FollowedRecording FollowAndWrite(std::span<const fs::path> files, RecordingFollower& follower,
+                                 WorkerTeam& team, SequenceWriter& writer, Progress& progress) {
+  for (std::size_t first = 0; first < files.size(); first += kBatch) {
+    const auto batch = files.subspan(first, std::min<std::size_t>(kBatch, files.size() - first));
+    writer.Append(follower.Follow(batch), team);
+    progress.Advance(static_cast<int>(batch.size()));
+  }
+  return follower.Result();
 }
 
 ChosenPerson RequirePerson(const FollowedRecording& found, const DepthImportSettings& s) {
@@ -280,104 +309,6 @@ Json NoteOf(const DepthImport& result) {
 
 }  // namespace
 
-void StatedCamera::Describe(Fields& f) {
-  f.Integer("width", width,
-            {.meaning = "width of the stored images",
-             .unit = "px",
-             .min = 1,
-             .max = 1 << 15,
-             .required = true});
-  f.Integer("height", height,
-            {.meaning = "height of the stored images",
-             .unit = "px",
-             .min = 1,
-             .max = 1 << 15,
-             .required = true});
-  f.Number(
-      "fx", fx,
-      {.meaning = "focal length in x", .unit = "px", .min = 1.0, .max = 1e6, .required = true});
-  f.Number(
-      "fy", fy,
-      {.meaning = "focal length in y", .unit = "px", .min = 1.0, .max = 1e6, .required = true});
-  f.Number(
-      "cx", cx,
-      {.meaning = "principal point, x", .unit = "px", .min = -1e6, .max = 1e6, .required = true});
-  f.Number(
-      "cy", cy,
-      {.meaning = "principal point, y", .unit = "px", .min = -1e6, .max = 1e6, .required = true});
-}
-
-void FrameRange::Describe(Fields& f) {
-  f.Integer("first", first, {.meaning = "first frame used", .min = 0, .max = 1e6});
-  f.Integer("count", count,
-            {.meaning = "number of frames used; 0: all that follow", .min = 0, .max = 1e6});
-}
-
-void EmptyFrames::Describe(Fields& f) {
-  f.File("images", images,
-         {.meaning = "folder or list of images without a person, as `images`; without it frames of "
-                     "the recording itself"});
-  f.Integer("first", first, {.meaning = "first frame without a person", .min = 0, .max = 1e6});
-  f.Integer(
-      "count", count,
-      {.meaning = "number of frames without a person; 0: all that follow", .min = 0, .max = 1e6});
-}
-
-void DepthImportSettings::Describe(Fields& f) {
-  f.Text("title", title, {.meaning = "what the recording shows"});
-  f.File("images", images,
-         {.meaning = "folder of depth images (.png, .pgm, .tif, .exr) or organised point clouds "
-                     "(.pcd) in the order of their names, or a list with lines \"seconds path\"",
-          .required = true});
-  f.Section(
-      "camera", camera,
-      {.meaning = "intrinsics of the stored images, before they are oriented", .required = true});
-  f.Number("unit_m", unit_m,
-           {.meaning = "metres that a stored value of 1 stands for: 0.001 for millimetres, 1 for "
-                       "metres and point clouds, 0.0002 for the TUM RGB-D benchmark",
-            .unit = "m",
-            .min = 1e-7,
-            .max = 1e3});
-  f.NumberList("invalid", invalid,
-               {.meaning = "stored values that are no measurement, besides 0, negative and "
-                           "non-finite ones"});
-  f.Section("orientation", orientation,
-            {.meaning = "crop, mirror, turn and size of the images, in this order; the intrinsics "
-                        "follow"});
-  f.Section("frames", frames, {.meaning = "the part of the recording that is used"});
-  f.Choice(
-      "missing_frames", missing_frames,
-      {{"empty", MissingFrames::kEmpty}, {"skip", MissingFrames::kSkip}},
-      {.meaning = "what stands for frames that numbers in file names or time stamps step over: "
-                  "images without measurements, or nothing"});
-  f.Number("fps", fps,
-           {.meaning = "frames per second; 0: as the time stamps say, 30 where there are none",
-            .unit = "1/s",
-            .min = 0.0,
-            .max = 1e4});
-  f.Section("empty_frames", empty_frames,
-            {.meaning = "frames without a person, for cutout.background.source empty_frames"});
-  f.Section("cutout", cutout, {.meaning = "how the person is cut out"});
-  f.File(
-      "subject", subject,
-      {.meaning = "folder of the person's template: mesh.ply, subject.json, weights.bin; without "
-                  "it the sequence has no subject, and whoever tracks it has to name one"});
-  f.Number("depth_unit_m", depth_unit_m,
-           {.meaning = "step of the sequence's depth", .unit = "m", .min = 1e-6, .max = 0.1});
-}
-
-std::string DepthImportSettings::Problem() const {
-  if (const std::string problem = CropProblem(orientation.crop, camera.width, camera.height);
-      camera.width > 0 && !problem.empty())
-    return problem;
-  const bool wants_empty = cutout.background.source == BackgroundSource::kEmptyFrames;
-  const bool names_empty = !empty_frames.images.empty() || empty_frames.count > 0;
-  if (wants_empty && !names_empty)
-    return "cutout.background.source is empty_frames, but empty_frames names neither images nor a "
-           "count of frames";
-  return "";
-}
-
 DepthImport ImportDepthSequence(const DepthImportSettings& s, int threads, const fs::path& folder) {
   std::optional<BodyModel> subject;
   if (!s.subject.empty()) subject = ReadBodyModel(s.subject);
@@ -400,8 +331,8 @@ DepthImport ImportDepthSequence(const DepthImportSettings& s, int threads, const
   FollowedRecording found;
   {
     Progress progress("import " + folder.filename().string(), result.frames);
-    found = FollowPeople(reader, frames.files, result.room, frames.fps, s.cutout, team, writer,
-                         progress);
+    RecordingFollower follower(reader, result.room, s.cutout, frames.fps, team);
+    found = FollowAndWrite(frames.files, follower, team, writer, progress);
   }
   result.people = static_cast<int>(found.people.size());
   result.chosen = RequirePerson(found, s);
