@@ -90,7 +90,11 @@ class FrameReader {
     return file.empty() ? DepthImage(camera_.width, camera_.height) : ReadDepthFrame(file, stored_);
   }
 
+  // The first file that is there is read first: what is wrong with all is said of that one.
   std::vector<DepthImage> ReadSample(const std::vector<fs::path>& files, int count) const {
+    const auto first = std::find_if(files.begin(), files.end(),
+                                    [](const fs::path& file) { return !file.empty(); });
+    if (first != files.end()) Read(*first);
     const std::vector<int> chosen = Spread(static_cast<int>(files.size()), count);
     std::vector<DepthImage> images(chosen.size());
     team_.For(static_cast<int>(chosen.size()), 1, [&](int begin, int end) {

@@ -51,7 +51,11 @@ TEST(FindPieces, GoesOnBehindAnArmButNotWhereTheWallShows) {
   EXPECT_EQ(PiecesIn(ViewOf({Person(0.0, 2.0), arm})).pieces.size(), 2u);  // the arm, one body
   // Two bodies of one depth with a gap between them: nothing is measured in it, so they may be one.
   const std::vector<FrontBox> two{Person(-0.3, 2.0), Person(0.3, 2.0)};
-  EXPECT_EQ(PiecesIn(ViewOf(two)).pieces.size(), 1u);
+  const DepthImage apart = ViewOf(two);
+  const CutoutSettings defaults;
+  EXPECT_EQ(FindPieces(apart, ForegroundOf(apart, EmptyRoom(), defaults), EmptyRoom(), defaults)
+                .pieces.size(),
+            1u);
   RoomView before_wall{.wall_m = 4.0};
   before_wall.boxes = two;
   CutoutSettings settings;

@@ -377,6 +377,7 @@ SceneSettings RoomScene() {
   scene.frames = 2;
   scene.room.floor = true;
   scene.room.wall_behind_m = 1.5;
+  scene.room.wall_height_m = 5.0;  // up to the upper edge of the image
   scene.room.furniture = {{{-1.0, -1.0}, {0.4, 0.5, 0.4}, 0.0, 0.0}};
   scene.room.empty_frames = 1;
   return scene;
