@@ -8,6 +8,7 @@
 
 #include "body/skeleton.h"
 #include "geometry/point_cloud.h"
+#include "math/rigid.h"
 #include "math/statistics.h"
 #include "metrics/observation_error.h"
 #include "metrics/reconstruction_error.h"

@@ -4,7 +4,9 @@
 #include <limits>
 
 #include "math/angles.h"
+#include "math/rigid.h"
 #include "math/rigid_fit.h"
+#include "math/rotation.h"
 #include "search/kd_tree.h"
 #include "tracking/visibility.h"
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "math/angles.h"
+#include "math/rotation.h"
 
 namespace vitruvia {
 namespace {

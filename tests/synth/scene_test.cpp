@@ -12,6 +12,8 @@
 #include "geometry/depth_png.h"
 #include "geometry/point_cloud.h"
 #include "geometry/surface_map.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 #include "sequence/joint_visibility.h"
 #include "sequence/sequence.h"
 #include "support/temporary_folder.h"

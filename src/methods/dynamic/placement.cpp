@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "math/rigid.h"
+
 namespace vitruvia::dynamic {
 namespace {
 
