@@ -8,6 +8,7 @@
 #include "experiments/plan/run_plan.h"
 #include "experiments/studies/shape_study.h"
 #include "experiments/studies/weight_study.h"
+#include "importers/depth_import.h"
 #include "importers/eval_import.h"
 #include "importers/mesh_import.h"
 #include "records/estimate.h"
@@ -45,6 +46,8 @@ const std::vector<ConfigKind>& ConfigKinds() {
         {"skeleton", "a kinematic skeleton", VisitSkeletonFile, nullptr},
         {"import_meshes", "mesh files made into a sequence", VisitDefaults<MeshSequenceSettings>,
          nullptr},
+        {"import_depth", "a recording of a depth camera made into a sequence",
+         VisitDefaults<DepthImportSettings>, nullptr},
         {"import_eval", "Stanford EVAL files made into a sequence",
          VisitDefaults<EvalImportSettings>, nullptr},
         {"motion", "key frames of a motion", VisitMotionFile, nullptr},

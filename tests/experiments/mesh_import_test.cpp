@@ -1,6 +1,8 @@
 // A sequence taken apart into mesh files and imported again: the same sequence.
 #include "importers/mesh_import.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -201,6 +203,30 @@ TEST_F(MeshImport, DepthThatDoesNotFitIsRefused) {
   EXPECT_THAT(call.error, HasSubstr("imported: depth of frame 0: "));
   EXPECT_THAT(call.error, HasSubstr("do not fit 16 bits"));
   EXPECT_FALSE(fs::exists(files_ / "imported"));
+}
+
+// Without a rest pose nothing corresponds: each frame keeps its own triangles.
+TEST_F(MeshImport, MeshesWithoutARestPoseAreSurfacesOfTheirOwn) {
+  WriteFrames(".ply", [](const Vector3f& v) { return v; });
+  TriangleMesh other{original_->ReadTrueVertices(2), original_->true_rest_mesh().triangles};
+  std::reverse(other.triangles.begin(), other.triangles.end());
+  other.triangles.pop_back();
+  WriteMesh(files_ / "meshes/002.ply", other);
+  config_.erase("rest");
+  config_.erase("subject");
+  const CallResult call = Import();
+  ASSERT_EQ(call.code, 0) << call.error;
+  VerifySequence(files_ / "imported");
+  const SequenceReader imported(files_ / "imported");
+  EXPECT_FALSE(imported.info().surface);
+  EXPECT_TRUE(imported.info().own_surfaces);
+  EXPECT_TRUE(imported.info().joints.empty());
+  EXPECT_EQ(imported.ReadTrueSurface(2).triangles, other.triangles);
+  ExpectDepth(imported.ReadDepth(1), original_->ReadDepth(1));
+  config_["rest"] = "rest.ply";
+  files_.Write("import.json", config_);
+  ExpectRefusal({"import", "meshes", files_.File("import.json"), "-o", files_.File("never")},
+                ExitCode::kBadConfiguration, {"rest", "`subject` names none"});
 }
 
 }  // namespace
