@@ -50,17 +50,17 @@ std::array<BoneLimits, kBoneCount> MakeLimits() {
     return Scaled(RangeOf(SideJoints(), angle), share);
   };
 
-  of(kAbdomen) = of(kChest) = Limits(midline(kSpineFlexion, 0.5), midline(kSpineTurn, 0.5),
-                                     midline(kSpineBend, -0.5));
+  of(kAbdomen) = of(kChest) =
+      Limits(midline(kSpineFlexion, 0.5), midline(kSpineTurn, 0.5), midline(kSpineBend, -0.5));
   of(kNeck) = of(kHead) =
       Limits(midline(kNeckFlexion, 0.5), midline(kNeckTurn, 0.5), midline(kNeckBend, -0.5));
-  for (const auto& [arm, thigh, outward] :
-       {std::tuple{kLeftUpperArm, kLeftThigh, 1.0}, std::tuple{kRightUpperArm, kRightThigh, -1.0}}) {
+  for (const auto& [arm, thigh, outward] : {std::tuple{kLeftUpperArm, kLeftThigh, 1.0},
+                                            std::tuple{kRightUpperArm, kRightThigh, -1.0}}) {
     of(arm, 1) = Limits({}, side(kElbowFlexion, -outward), {});
     of(arm, 2) = Limits(side(kPronation, 0.5), side(kUlnarDeviation, outward),
                         side(kWristFlexion, -outward));
-    of(thigh) = Limits(side(kHipFlexion, -1.0), side(kHipRotation, -outward),
-                       side(kHipAbduction, outward));
+    of(thigh) =
+        Limits(side(kHipFlexion, -1.0), side(kHipRotation, -outward), side(kHipAbduction, outward));
     of(thigh, 1) = Limits(side(kKneeFlexion, 1.0), {}, {});
     of(thigh, 2) = Limits(side(kDorsiflexion, -1.0), {}, side(kInversion, -outward));
   }

@@ -12,7 +12,9 @@ namespace vitruvia {
 struct BoneLimits {
   Vector3<double> min_rad, max_rad;
 
-  bool HasAny() const { return min_rad.array().isFinite().any() || max_rad.array().isFinite().any(); }
+  bool HasAny() const {
+    return min_rad.array().isFinite().any() || max_rad.array().isFinite().any();
+  }
 };
 
 // In the order of BoneId. A trunk's range is shared evenly by abdomen and chest, a neck's by neck

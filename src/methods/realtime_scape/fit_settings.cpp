@@ -161,14 +161,15 @@ void FitSettings::DescribeWeights(Fields& f) {
 
 void NoiseSettings::Describe(Fields& f) {
   f.Visit(sensor);
-  f.Number("model_deviation_m", model_deviation_m,
-           {.meaning = "standard deviation of the distance between the model's surface and the true "
-                       "one, with which the sensor's noise is compared",
-            .unit = "m",
-            .min = 1e-5,
-            .max = 1,
-            .origin = Origin::kGuessed,
-            .source = "skinning is some millimetres off"});
+  f.Number(
+      "model_deviation_m", model_deviation_m,
+      {.meaning = "standard deviation of the distance between the model's surface and the true "
+                  "one, with which the sensor's noise is compared",
+       .unit = "m",
+       .min = 1e-5,
+       .max = 1,
+       .origin = Origin::kGuessed,
+       .source = "skinning is some millimetres off"});
 }
 
 void FreeSpaceSettings::Describe(Fields& f) {

@@ -53,6 +53,9 @@ class PoseFitter {
 
   // Lines 5 and 7 for a pose, without iterations.
   PoseCheck Compare(const Observation& observation, const BodyPose& pose);
+  // Points of the cloud that the pose of the last Fit or Compare does not explain, by their
+  // indices.
+  const std::vector<int>& unexplained() const { return classification_.unexplained; }
   // Mean of the vertices that are visible in a pose (camera frame, metres); the root's centre if
   // none is.
   Vector3d VisibleCentroid(const BodyPose& pose);

@@ -93,8 +93,8 @@ struct FitSettings {
   int surface_stride = 1;
   RobustKernel kernel = RobustKernel::kHuber;
   double kernel_scale_m = 0.01;
-  NoiseSettings noise;
-  FreeSpaceSettings free_space;
+  NoiseSettings noise{};
+  FreeSpaceSettings free_space{};
   void Describe(Fields& fields);
 
  private:
@@ -121,6 +121,13 @@ struct MotionSettings {
   void Describe(Fields& fields);
 };
 
+struct LimbSettings {
+  double min_unexplained_m2 = 0.0;  // 0: limbs are not searched
+  double margin = 0.01;
+  int num_targets = 8, num_swivels = 12, num_refined = 2;
+  void Describe(Fields& fields);
+};
+
 struct StoppingSettings {
   double rotation_step_deg = 1.0;
   double translation_step_m = 0.005;
@@ -143,11 +150,13 @@ struct Settings {
   MotionSettings motion;
   JointRows joint_rows = JointRows::kJointPosition;
   TermWeights weights;
+  double limit_slack_deg = 15.0;
   double length_unit_m = 0.05;
   RotationUpdate rotation_update = RotationUpdate::kExponential;
   StoppingSettings stopping;
   SolverSettings solver;
   PlacementSettings placement;
+  LimbSettings limbs;
   RelocalizationSettings recovery;
   double lost_below = 0.3;
   void Describe(Fields& fields);

@@ -1,5 +1,6 @@
 #include "methods/realtime_scape/terms/energy_terms.h"
 
+#include "math/angles.h"
 #include "methods/realtime_scape/terms/axis_term.h"
 #include "methods/realtime_scape/terms/fit_term.h"
 #include "methods/realtime_scape/terms/free_space_term.h"
@@ -76,7 +77,7 @@ const std::array<TermEntry, kEnergyTermCount>& Terms() {
        AboutOwnWeight("weight of the term that keeps joints within their anatomical range, per "
                       "squared radian"),
        [](const TermInput& in, double weight, BlockNormalEquations& equations) {
-         AddLimitTerm(in.pose, weight, equations);
+         AddLimitTerm(in.pose, in.settings.limit_slack_deg * kRadiansPerDegree, weight, equations);
        }},
       {EnergyTerm::kPrior, "prior", "prior_weight", 0.0,
        AboutOwnWeight("weight of the term that draws local rotations to those usual in captured "

@@ -14,8 +14,8 @@ namespace vitruvia::realtime_scape {
 double RobustWeight(RobustKernel kernel, double residual_m, double scale_m);
 
 // The weight of a row: 1 without noise, the model's variance over that of model and measurement
-// otherwise. `point` is where the row's measurement lies (camera frame), `direction` the unit vector
-// along which the row measures.
+// otherwise. `point` is where the row's measurement lies (camera frame), `direction` the unit
+// vector along which the row measures.
 double NoiseWeight(const NoiseSettings& noise, const Vector3d& point, const Vector3d& direction);
 
 // Adds the rows of V1 (`classes`, with observed depths) and of the pairs of V2 and P2. Their

@@ -1,5 +1,5 @@
-// Free space: where the frame shows that nothing is, nothing of the model may be seen. Ours: paper A
-// pairs such a vertex (V2) with the nearest observed point if one is near, and else ignores it.
+// Free space: where the frame shows that nothing is, nothing of the model may be seen. Ours: paper
+// A pairs such a vertex (V2) with the nearest observed point if one is near, and else ignores it.
 #pragma once
 
 #include <vector>
@@ -16,8 +16,8 @@ struct FreeSpace {
   std::vector<Pair> ways_out;
 };
 
-// Of the vertices that no captured pixel explains (V2): one before the captured surface leaves along
-// its line of sight, one where nothing is measured across it, to the nearest measured pixel.
+// Of the vertices that no captured pixel explains (V2): one before the captured surface leaves
+// along its line of sight, one where nothing is measured across it, to the nearest measured pixel.
 void FindFreeSpace(const std::vector<Vector3f>& vertices, const VertexClasses& classes,
                    const DepthImage& captured, const PinholeCamera& camera,
                    const FitSettings& settings, FreeSpace& free_space);

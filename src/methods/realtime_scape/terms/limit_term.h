@@ -7,7 +7,8 @@
 namespace vitruvia::realtime_scape {
 
 // Adds weight · Σ excess², the angle in radians by which each limited axis of each joint is beyond
-// its range (body/bone_limits.h).
-void AddLimitTerm(const BodyPose& pose, double weight, BlockNormalEquations& equations);
+// its range (body/bone_limits.h), widened by slack_rad at both ends.
+void AddLimitTerm(const BodyPose& pose, double slack_rad, double weight,
+                  BlockNormalEquations& equations);
 
 }  // namespace vitruvia::realtime_scape

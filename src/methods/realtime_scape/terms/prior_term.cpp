@@ -10,10 +10,8 @@ void AddPriorTerm(const BodyPose& pose, double weight, BlockNormalEquations& equ
     const int parent = Bones()[bone].parent;
     const LocalRotationStatistics& usual = CapturedPoseStatistics()[bone];
     const LocalDeviation deviation(pose, bone, parent, usual.mean);
-    for (int axis = 0; axis < 3; ++axis) {
-      deviation.AddRow(bone, parent, Vector3d::Unit(axis), 0.0, 1.0 / usual.deviation_rad[axis],
-                       weight, equations);
-    }
+    deviation.AddRows(deviation.vector(), Vector3d::Zero(), usual.deviation_rad.cwiseInverse(),
+                      weight, equations);
   }
 }
 
