@@ -1,5 +1,8 @@
 #include "methods/realtime_scape/subject_tracker.h"
 
+#include <cstdio>
+#include <cstdlib>
+
 #include "core/error.h"
 #include "math/rigid.h"
 #include "tracking/placement.h"
@@ -15,6 +18,7 @@ SubjectTracker::SubjectTracker(const Subject& subject, const PinholeCamera& came
       model_(subject),
       observer_(camera, settings),
       fitter_(model_, camera, settings),
+      limb_finder_(model_, camera, settings),
       relocalizer_(model_, camera, settings),
       loss_detector_(settings.recovery) {}
 
@@ -34,6 +38,10 @@ TrackResult SubjectTracker::TrackFrame(const DepthFrame& frame) {
       fitter_.Fit(observation, *history_, prediction,
                   is_first ? stopping.first_frame_iterations : stopping.max_iterations);
   clock_.Skip();
+  if (getenv("TERMS_DEBUG"))
+    fprintf(stderr, "DBG %d %.4f %.4f %.4f\n", frame.index, fit.agreement.explained,
+            fit.agreement.confirmed, fit.agreement.visible_fraction_evaluated);
+  fit = TakeFoundLimb(observation, std::move(fit));
   fit = TakeBetterPose(observation, std::move(fit), is_first);
   history_ = Advanced(*history_, model_, fit.pose, fit.counts, settings_.search.seen_share);
   fit.times += clock_.times();
@@ -48,6 +56,17 @@ PoseHistory SubjectTracker::Place(const PointCloud& cloud) const {
       PlaceRestPose({model_.rest_vertices, model_.triangles}, cloud, camera_,
                     settings_.fit.visible_within_m, settings_.placement, *rasterizer);
   return AtRest(RestPose(model_, camera_from_subject));
+}
+
+// What a search for a limb takes is the same step of the frame as relocalisation.
+FitSummary SubjectTracker::TakeFoundLimb(const Observation& observation, FitSummary fit) {
+  if (settings_.limbs.min_unexplained_m2 == 0.0) return fit;
+  std::optional<FitSummary> found = limb_finder_.Search(observation, fit, fitter_.unexplained());
+  clock_.Lap(Step::kRelocalize);
+  if (!found) return fit;
+  history_ = AtRest(found->pose);
+  found->times = fit.times;
+  return *std::move(found);
 }
 
 // Searches other poses when agreement has been low for long enough. What a search finds replaces

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "methods/realtime_scape/limb_finder.h"
 #include "methods/realtime_scape/relocalizer.h"
 #include "tracking/frame_checks.h"
 #include "tracking/loss_detector.h"
@@ -25,6 +26,7 @@ class SubjectTracker {
 
   PoseHistory Place(const PointCloud& cloud) const;
   FitSummary TakeBetterPose(const Observation& observation, FitSummary fit, bool is_first);
+  FitSummary TakeFoundLimb(const Observation& observation, FitSummary fit);
   TrackResult CarryOver();
   Ending EndingOf(const FitSummary& fit) const;
   TrackResult Result(FitSummary fit, Ending ending) const;
@@ -34,6 +36,7 @@ class SubjectTracker {
   Model model_;
   Observer observer_;
   PoseFitter fitter_;
+  LimbFinder limb_finder_;
   Relocalizer relocalizer_;
   LossDetector loss_detector_;
   StepClock<RealtimeScapeStep> clock_;
