@@ -104,6 +104,19 @@ bool IsMeshFile(const std::filesystem::path& file) {
                      [&](const MeshFormat& format) { return format.extension == extension; });
 }
 
+std::vector<std::filesystem::path> MeshFilesIn(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (IsMeshFile(entry.path())) files.push_back(entry.path());
+  }
+  if (files.empty())
+    throw DataError(fmt::format("{}: expected a folder of .obj, .ply or .off files, found none",
+                                folder.string()));
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 TriangleMesh ReadMesh(const std::filesystem::path& file) {
   const MeshFormat& format = FormatOf(file);
   TriangleMesh mesh = format.parse(ReadWholeFile(file), file.string());

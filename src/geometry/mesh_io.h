@@ -9,6 +9,9 @@ namespace vitruvia {
 
 bool IsMeshFile(const std::filesystem::path& file);  // by its extension
 
+// The mesh files of a folder in the order of their names. DataError if there are none.
+std::vector<std::filesystem::path> MeshFilesIn(const std::filesystem::path& folder);
+
 // What each format may hold is said in mesh_formats.h. DataError with file, line or byte, and cause
 // if the file is missing or damaged, has faces that are not triangles, indices out of range, or
 // vertices that are not finite.

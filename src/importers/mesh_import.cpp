@@ -1,7 +1,5 @@
 #include "importers/mesh_import.h"
 
-#include <algorithm>
-
 #include <Eigen/QR>
 
 #include "config/json_settings.h"
@@ -19,19 +17,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr float kNearestToCamera_m = 0.1f;
-
-std::vector<fs::path> FrameFiles(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (IsMeshFile(entry.path())) files.push_back(entry.path());
-  }
-  if (files.empty())
-    throw DataError(fmt::format("{}: expected a folder of .obj, .ply or .off files, found none",
-                                folder.string()));
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 TriangleMesh ReadScaled(const fs::path& file, double unit_m) {
   TriangleMesh mesh = ReadMesh(file);
@@ -165,7 +150,7 @@ void MeshSequenceSettings::Describe(Fields& f) {
 }
 
 void ImportMeshSequence(const MeshSequenceSettings& settings, const fs::path& folder) {
-  const std::vector<fs::path> files = FrameFiles(settings.meshes);
+  const std::vector<fs::path> files = MeshFilesIn(settings.meshes);
   const BodyModel subject = ReadBodyModel(settings.subject);
   const TriangleMesh rest = ReadScaled(settings.rest, settings.unit_m);
   const PinholeCamera& camera = settings.view.camera;

@@ -9,6 +9,7 @@
 #include "tracking/classification.h"
 #include "tracking/placement.h"
 #include "tracking/relocalization_settings.h"
+#include "tracking/start_search.h"
 
 namespace vitruvia::realtime_scape {
 
@@ -130,7 +131,9 @@ struct Settings {
   RotationUpdate rotation_update = RotationUpdate::kExponential;
   StoppingSettings stopping;
   SolverSettings solver;
-  PlacementSettings placement;
+  Start start = Start::kRestPose;
+  PlacementSettings placement;       // of start kRestPose
+  StartSearchSettings start_search;  // of start kSearch
   RelocalizationSettings recovery;
   double lost_below = 0.3;
   void Describe(Fields& fields);

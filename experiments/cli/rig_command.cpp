@@ -1,0 +1,115 @@
+#include "experiments/cli/rig_command.h"
+
+#include <algorithm>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "geometry/mesh_io.h"
+#include "math/statistics.h"
+#include "subjects/rig.h"
+
+namespace vitruvia {
+namespace fs = std::filesystem;
+namespace {
+
+struct RigArguments {
+  fs::path meshes, space, settings, output;
+  double unit_m = 1.0;
+  std::optional<double> height_m, weight_kg;
+  std::string sex;
+};
+
+KnownAttributes Known(const RigArguments& a) {
+  KnownAttributes known{a.height_m, a.weight_kg, {}};
+  if (!a.sex.empty()) known.sex = a.sex == "male" ? Sex::kMale : Sex::kFemale;
+  return known;
+}
+
+TriangleMesh ReadScaled(const fs::path& file, double unit_m) {
+  TriangleMesh mesh = ReadMesh(file);
+  for (Vector3f& v : mesh.vertices) v *= static_cast<float>(unit_m);
+  return mesh;
+}
+
+Rig RigFolder(const RigArguments& a, Registrar& registrar, const RigSettings& settings) {
+  std::vector<Triangle> triangles;
+  std::vector<std::vector<Vector3f>> frames;
+  for (const fs::path& file : MeshFilesIn(a.meshes)) {
+    TriangleMesh mesh = ReadScaled(file, a.unit_m);
+    if (frames.empty()) triangles = mesh.triangles;
+    if (mesh.triangles != triangles ||
+        (!frames.empty() && mesh.vertices.size() != frames.front().size())) {
+      throw DataError(
+          fmt::format("{}: expected the triangles of the first mesh, got others", file.string()));
+    }
+    frames.push_back(std::move(mesh.vertices));
+  }
+  return RigSequence(triangles, frames, registrar, settings);
+}
+
+void Print(const Rig& rig) {
+  const Registration& first = rig.registrations.front();
+  const MutualDistance& d = first.distance;
+  fmt::print(
+      "registered from {}: surface to body {:.1f} mm, body to surface {:.1f} mm; {:.0f} % of the "
+      "surface and {:.0f} % of the body explained; the second-best pose is {:.0f} % farther\n",
+      first.start, 1e3 * d.target_to_body_m, 1e3 * d.body_to_target_m, 100.0 * d.target_explained,
+      100.0 * d.body_explained, 100.0 * first.margin);
+  fmt::print("{:.2f} m, {:.1f} kg\n", rig.subject.attributes.height_m,
+             rig.subject.attributes.weight_kg);
+  fmt::print("frames {}: RMSE over all vertices: mean {:.2f} mm, max {:.2f} mm\n",
+             rig.rmse_m.size(), 1e3 * Mean(rig.rmse_m), 1e3 * Maximum(rig.rmse_m));
+  fmt::print(
+      "T-pose of frame {}: put back {:.2f} mm off on average, {:.2f} mm at most; volume "
+      "{:+.1f} %; {} folded triangles\n",
+      rig.reference, 1e3 * rig.cost.reposing_mean_m, 1e3 * rig.cost.reposing_max_m,
+      100.0 * rig.cost.volume_change, rig.cost.folded_triangles);
+}
+
+void RigToFolder(const RigArguments& a) {
+  const auto settings =
+      a.settings.empty() ? RigSettings() : ReadSettingsFile<RigSettings>(a.settings);
+  const ShapeSpace space = ReadShapeSpace(a.space);
+  Registrar registrar(space, Known(a), settings.registration);
+  StagedFolder folder(a.output, "weights.bin");
+  const Rig rig = fs::is_directory(a.meshes)
+                      ? RigFolder(a, registrar, settings)
+                      : RigMesh(ReadScaled(a.meshes, a.unit_m), registrar, settings);
+  WriteBodyModel(folder.path(), rig.subject);
+  WriteWholeFile(folder.path() / "rig.json", RigRecord(rig, settings).dump(1) + "\n");
+  folder.Commit();
+  Print(rig);
+  fmt::print("{}\n", a.output.string());
+}
+
+}  // namespace
+
+void AddRigCommand(CLI::App& app) {
+  auto a = std::make_shared<RigArguments>();
+  CLI::App* command = app.add_subcommand(
+      "rig", "Make a subject of a person's mesh in any pose, or of a folder of meshes");
+  command
+      ->add_option("MESHES", a->meshes,
+                   "mesh file, or folder of mesh files with the same triangles, one for each "
+                   "frame; y up")
+      ->required();
+  command->add_option("--space", a->space, "folder of the shape space")->required();
+  command->add_option("--unit", a->unit_m, "length that 1 stands for in the meshes, m")
+      ->check(CLI::Range(1e-6, 1e3))
+      ->capture_default_str();
+  command->add_option("--height", a->height_m, "the person's height, m, if known")
+      ->check(CLI::Range(0.5, 2.5));
+  command->add_option("--weight", a->weight_kg, "the person's weight, kg, if known")
+      ->check(CLI::Range(3.0, 400.0));
+  command->add_option("--sex", a->sex, "female or male, if known")
+      ->check(CLI::IsMember({"female", "male"}));
+  command->add_option("--settings", a->settings,
+                      "JSON file of the settings; without it the defaults");
+  command->add_option("-o,--output", a->output, "folder of the subject")->required();
+  command->callback([a] { RigToFolder(*a); });
+}
+
+}  // namespace vitruvia

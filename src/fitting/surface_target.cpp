@@ -1,0 +1,130 @@
+#include "fitting/surface_target.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "fitting/distance_sum.h"
+
+namespace vitruvia {
+namespace {
+
+constexpr float kLeastCosine = 0.2f;    // between the normals of a pair
+constexpr float kInsideWeight = 0.25f;  // of a clothed body's vertex inside of the surface
+
+Vector3d Mean(const std::vector<Vector3f>& points) {
+  Vector3d sum = Vector3d::Zero();
+  for (const Vector3f& p : points) sum += p.cast<double>();
+  return sum / static_cast<double>(std::max<std::size_t>(1, points.size()));
+}
+
+// The i-th number of the van der Corput sequence of a base: evenly spread in 0 … 1.
+double VanDerCorput(int i, int base) {
+  double value = 0.0, digit = 1.0 / base;
+  for (; i > 0; i /= base, digit /= base) value += digit * (i % base);
+  return value;
+}
+
+}  // namespace
+
+OrientedPoints EvenlyChosen(const OrientedPoints& all, int count) {
+  const std::size_t size = all.points.size();
+  const std::size_t wanted = std::min(size, static_cast<std::size_t>(count));
+  OrientedPoints chosen;
+  for (std::size_t i = 0; i < wanted; ++i) {
+    chosen.points.push_back(all.points[i * size / wanted]);
+    chosen.normals.push_back(all.normals[i * size / wanted]);
+  }
+  return chosen;
+}
+
+OrientedPoints SampleSurface(const TriangleMesh& mesh, int count) {
+  std::vector<double> area_up_to{0.0};
+  for (const Triangle& t : mesh.triangles) {
+    const Vector3f& a = mesh.vertices[t[0]];
+    area_up_to.push_back(
+        area_up_to.back() +
+        double{0.5f * (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).norm()});
+  }
+  if (!(area_up_to.back() > 0.0)) throw DataError("the mesh has no triangle with an area");
+  std::vector<Vector3f> normals;
+  ComputeVertexNormals(mesh.vertices, mesh.triangles, normals);
+  OrientedPoints samples;
+  for (int i = 0; i < count; ++i) {
+    const double at = (i + 0.5) / count * area_up_to.back();
+    const auto triangle = static_cast<std::size_t>(
+        std::upper_bound(area_up_to.begin(), area_up_to.end() - 1, at) - area_up_to.begin() - 1);
+    const Triangle& t = mesh.triangles[triangle];
+    const double root = std::sqrt(VanDerCorput(i + 1, 2)), second = VanDerCorput(i + 1, 3);
+    const auto b0 = static_cast<float>(1.0 - root), b1 = static_cast<float>(root * (1.0 - second)),
+               b2 = static_cast<float>(root * second);
+    samples.points.push_back(b0 * mesh.vertices[t[0]] + b1 * mesh.vertices[t[1]] +
+                             b2 * mesh.vertices[t[2]]);
+    samples.normals.push_back(
+        (b0 * normals[t[0]] + b1 * normals[t[1]] + b2 * normals[t[2]]).normalized());
+  }
+  return samples;
+}
+
+SurfaceTarget::SurfaceTarget(OrientedPoints points, int seekers, Clothing clothing)
+    : points_(std::move(points)), clothing_(clothing) {
+  Require(!points_.points.empty(), "SurfaceTarget: no points");
+  seekers_ = EvenlyChosen(points_, seekers);
+  centroid_ = Mean(points_.points);
+  tree_.Build(points_.points);
+}
+
+void SurfaceTarget::FindPairs(const PosedBody& body, double cutoff_m, std::vector<FitPair>& pairs) {
+  const std::vector<Vector3f>& vertices = body.vertices();
+  const auto cutoff = static_cast<float>(cutoff_m);
+  const auto weight_of = [&](const Vector3f& inside_from, const Vector3f& surface,
+                             const Vector3f& normal) {
+    const bool is_inside = normal.dot(inside_from - surface) < 0.0f;
+    return clothing_ == Clothing::kLoose && is_inside ? kInsideWeight : 1.0f;
+  };
+  pairs.clear();
+  tree_.FindNearest(vertices, cutoff, neighbors_);
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    if (neighbors_[v].index < 0) continue;
+    const auto s = static_cast<std::size_t>(neighbors_[v].index);
+    if (points_.normals[s].dot(body.normals()[v]) < kLeastCosine) continue;
+    pairs.push_back({static_cast<int>(v), points_.points[s], points_.normals[s],
+                     weight_of(vertices[v], points_.points[s], points_.normals[s])});
+  }
+  body_tree_.Build(vertices);
+  body_tree_.FindNearest(seekers_.points, cutoff, neighbors_);
+  for (std::size_t q = 0; q < seekers_.points.size(); ++q) {
+    if (neighbors_[q].index < 0) continue;
+    const auto v = static_cast<std::size_t>(neighbors_[q].index);
+    if (seekers_.normals[q].dot(body.normals()[v]) < kLeastCosine) continue;
+    pairs.push_back({neighbors_[q].index, seekers_.points[q], body.normals()[v],
+                     weight_of(vertices[v], seekers_.points[q], seekers_.normals[q])});
+  }
+}
+
+MutualDistance SurfaceTarget::Measure(const PosedBody& body, const NearFar& limits) {
+  const std::vector<Vector3f>& vertices = body.vertices();
+  const auto far_m = static_cast<float>(limits.far_m);
+  const auto distance = [&](const KdTree::Neighbor& n, const std::vector<Vector3f>& normals,
+                            const Vector3f& normal) {
+    const bool fits =
+        n.index >= 0 && normals[static_cast<std::size_t>(n.index)].dot(normal) > kLeastCosine;
+    return fits ? std::sqrt(double{n.squared_distance}) : limits.far_m;
+  };
+  DistanceSum from_body, from_target;
+  tree_.FindNearest(vertices, far_m, neighbors_);
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    from_body.Add(distance(neighbors_[v], points_.normals, body.normals()[v]), limits);
+  }
+  body_tree_.Build(vertices);
+  body_tree_.FindNearest(seekers_.points, far_m, neighbors_);
+  for (std::size_t q = 0; q < seekers_.points.size(); ++q) {
+    from_target.Add(distance(neighbors_[q], body.normals(), seekers_.normals[q]), limits);
+  }
+  return {from_target.MeanOr(limits.far_m), from_body.MeanOr(limits.far_m), from_target.share(),
+          from_body.share()};
+}
+
+Vector3d SurfaceTarget::VisibleCentroid(const PosedBody& body) { return Mean(body.vertices()); }
+
+}  // namespace vitruvia
