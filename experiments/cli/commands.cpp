@@ -32,6 +32,7 @@
 #include "experiments/cli/scan_command.h"
 #include "experiments/cli/schema_command.h"
 #include "experiments/cli/status_command.h"
+#include "experiments/cli/subject_command.h"
 #include "experiments/cli/submit_command.h"
 #include "experiments/cli/sufficient_command.h"
 #include "experiments/cli/track_command.h"
@@ -134,6 +135,7 @@ void AddCommands(CLI::App& app, Arguments& a) {
   AddScanCommand(app);
   AddFitCommand(app);
   AddRigCommand(app);
+  AddSubjectCommand(app);
 
   CLI::App* explain =
       app.add_subcommand("explain", "Say what a setting or a metric means; without KEY list all");
@@ -157,7 +159,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {
       throw ConfigError(
-          "expected a command: list, synth, import, verify, learn, scan, fit, rig, track, run, "
+          "expected a command: list, synth, import, verify, learn, scan, fit, rig, subject, track, run, "
           "status, submit, rescore, export, report, index, compare, "
           "sufficient, regress, schema or explain (--help)");
     }

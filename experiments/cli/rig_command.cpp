@@ -9,7 +9,9 @@
 #include "core/files.h"
 #include "geometry/mesh_io.h"
 #include "math/statistics.h"
+#include "reports/pictures/surface_pictures.h"
 #include "subjects/rig.h"
+#include "subjects/rig_pictures.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -34,20 +36,39 @@ TriangleMesh ReadScaled(const fs::path& file, double unit_m) {
   return mesh;
 }
 
-Rig RigFolder(const RigArguments& a, Registrar& registrar, const RigSettings& settings) {
+struct Meshes {
   std::vector<Triangle> triangles;
   std::vector<std::vector<Vector3f>> frames;
-  for (const fs::path& file : MeshFilesIn(a.meshes)) {
-    TriangleMesh mesh = ReadScaled(file, a.unit_m);
-    if (frames.empty()) triangles = mesh.triangles;
-    if (mesh.triangles != triangles ||
-        (!frames.empty() && mesh.vertices.size() != frames.front().size())) {
+};
+
+Meshes ReadFolder(const fs::path& folder, double unit_m) {
+  Meshes meshes;
+  for (const fs::path& file : MeshFilesIn(folder)) {
+    TriangleMesh mesh = ReadScaled(file, unit_m);
+    if (meshes.frames.empty()) meshes.triangles = mesh.triangles;
+    if (mesh.triangles != meshes.triangles ||
+        (!meshes.frames.empty() && mesh.vertices.size() != meshes.frames.front().size())) {
       throw DataError(
           fmt::format("{}: expected the triangles of the first mesh, got others", file.string()));
     }
-    frames.push_back(std::move(mesh.vertices));
+    meshes.frames.push_back(std::move(mesh.vertices));
   }
-  return RigSequence(triangles, frames, registrar, settings);
+  return meshes;
+}
+
+Meshes ReadFile(const fs::path& file, double unit_m) {
+  TriangleMesh mesh = ReadScaled(file, unit_m);
+  return {std::move(mesh.triangles), {std::move(mesh.vertices)}};
+}
+
+// Of the T-pose and some frames.
+void WriteSheet(const Rig& rig, const Meshes& meshes, const fs::path& stem) {
+  constexpr int kFrames = 6;
+  RunPictures pictures;
+  MeshView view(kPictureSize, kPictureSize);
+  DrawSurfaceStrips(RigStrips(rig, meshes.frames, kFrames), view, pictures);
+  DrawingWriter writer;
+  WritePictureSheet(writer, stem, pictures);
 }
 
 void Print(const Rig& rig) {
@@ -75,11 +96,14 @@ void RigToFolder(const RigArguments& a) {
   const ShapeSpace space = ReadShapeSpace(a.space);
   Registrar registrar(space, Known(a), settings.registration);
   StagedFolder folder(a.output, "weights.bin");
-  const Rig rig = fs::is_directory(a.meshes)
-                      ? RigFolder(a, registrar, settings)
-                      : RigMesh(ReadScaled(a.meshes, a.unit_m), registrar, settings);
+  const Meshes meshes =
+      fs::is_directory(a.meshes) ? ReadFolder(a.meshes, a.unit_m) : ReadFile(a.meshes, a.unit_m);
+  const Rig rig = meshes.frames.size() > 1
+                      ? RigSequence(meshes.triangles, meshes.frames, registrar, settings)
+                      : RigMesh({meshes.frames.front(), meshes.triangles}, registrar, settings);
   WriteBodyModel(folder.path(), rig.subject);
   WriteWholeFile(folder.path() / "rig.json", RigRecord(rig, settings).dump(1) + "\n");
+  WriteSheet(rig, meshes, folder.path() / "rig");
   folder.Commit();
   Print(rig);
   fmt::print("{}\n", a.output.string());

@@ -54,6 +54,7 @@ void PoseFit::Assemble(const FitStage& stage, double robust_m, const FitPriors& 
   gradient_.setZero(columns);
   const auto robust = static_cast<float>(robust_m);
   const auto point_share = static_cast<float>(stage.point_share);
+  const float plane_share = 1.0f - point_share;
   const float scale = static_cast<float>(
       std::sqrt(priors.point_count / std::max<double>(1.0, static_cast<double>(pairs_.size()))) /
       priors.point_deviation_m);
@@ -73,12 +74,15 @@ void PoseFit::Assemble(const FitStage& stage, double robust_m, const FitPriors& 
   for (const FitPair& pair : pairs_) {
     const Vector3f d = posed_.vertices()[static_cast<std::size_t>(pair.vertex)] - pair.target;
     const float along = pair.normal.dot(d);
-    const float squared = along * along + point_share * d.squaredNorm();
+    const float squared = plane_share * along * along + point_share * d.squaredNorm();
     const float weight = scale * std::sqrt(pair.weight) / (1.0f + squared / (robust * robust));
-    add(pair.vertex, pair.normal, weight, along);
-    if (point_share <= 0.0f) continue;
-    for (int k = 0; k < 3; ++k) {
-      add(pair.vertex, Vector3f::Unit(k), weight * std::sqrt(point_share), d[k]);
+    if (plane_share > 0.0f) {
+      add(pair.vertex, pair.normal, weight * std::sqrt(plane_share), along);
+    }
+    if (point_share > 0.0f) {
+      for (int k = 0; k < 3; ++k) {
+        add(pair.vertex, Vector3f::Unit(k), weight * std::sqrt(point_share), d[k]);
+      }
     }
   }
   if (filled > 0) flush();

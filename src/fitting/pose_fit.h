@@ -15,7 +15,7 @@ namespace vitruvia {
 struct FitStage {
   int iterations = 10;
   double first_cutoff_m = 0.3, last_cutoff_m = 0.1;  // of a pair's distance
-  double point_share = 0.2;  // of the distance in space against that along the normal
+  double point_share = 0.2;  // of the squared distance in space; the rest is that along the normal
   bool moves_shape = false;
 };
 

@@ -249,7 +249,7 @@ Rig RigMesh(const TriangleMesh& mesh, Registrar& registrar, const RigSettings& s
   SkinWeights weights =
       Smoothed(CarriedOver(mesh, model, rig.frames.front()), mesh, settings.smoothing_steps);
   const Vertices rest = RestOf({mesh.vertices}, weights, rig.frames);
-  rig.subject = Subject({rest, mesh.triangles}, std::move(weights), model);
+  rig.subject = Subject({rest, mesh.triangles}, std::move(weights), rig.model);
   StandOnFloor(rig.subject, rig.frames);
   rig.rmse_m = FrameErrors({mesh.vertices}, rig.subject, rig.frames);
   rig.cost = CostOf(mesh, rig.subject, rig.frames.front());
@@ -267,13 +267,14 @@ Rig RigSequence(const std::vector<Triangle>& triangles, const std::vector<Vertic
                                      });
   rig.reference = static_cast<int>(best - rig.registrations.begin());
   const auto reference = static_cast<std::size_t>(rig.reference);
-  const BodyModel model = registrar.Body(rig.registrations.front().state.theta);
+  rig.model = registrar.Body(rig.registrations.front().state.theta);
   for (const Registration& r : rig.registrations) {
-    rig.frames.push_back(registrar.SurfaceFromSubject(r.state));
+    rig.model_frames.push_back(registrar.SurfaceFromSubject(r.state));
   }
+  rig.frames = rig.model_frames;
 
   const TriangleMesh reference_mesh{frames[reference], triangles};
-  SkinWeights weights = Smoothed(CarriedOver(reference_mesh, model, rig.frames[reference]),
+  SkinWeights weights = Smoothed(CarriedOver(reference_mesh, rig.model, rig.frames[reference]),
                                  reference_mesh, settings.smoothing_steps);
   Vertices rest = RestOf(frames, weights, rig.frames);
   const skinning::Labels labels = skinning::HeaviestBones(weights);
@@ -287,7 +288,7 @@ Rig RigSequence(const std::vector<Triangle>& triangles, const std::vector<Vertic
   rig.frames =
       skinning::FitTransforms({rest, frames}, learnt.weights, kBoneCount, settings.weights.threads)
           .poses;
-  rig.subject = Subject({rest, triangles}, learnt.weights, model);
+  rig.subject = Subject({rest, triangles}, learnt.weights, rig.model);
   MoveJoints(rig.frames, settings.joint_slack_m, rig.subject.skeleton);
   StandOnFloor(rig.subject, rig.frames);
   rig.rmse_m = FrameErrors(frames, rig.subject, rig.frames);

@@ -29,9 +29,11 @@ struct RigCost {
 };
 
 struct Rig {
-  BodyModel subject;                        // the mesh in the T-pose
-  std::vector<Registration> registrations;  // one for each frame
-  std::vector<BoneTransforms> frames;       // frame_from_subject
+  BodyModel subject;                         // the mesh in the T-pose
+  std::vector<Registration> registrations;   // one for each frame
+  BodyModel model;                           // the body that was registered, in the T-pose
+  std::vector<BoneTransforms> model_frames;  // frame_from_model
+  std::vector<BoneTransforms> frames;        // frame_from_subject
   std::vector<double> rmse_m;  // of each frame: the skinned subject against the frame's mesh
   int reference = 0;           // the frame that weights were carried over in
   RigCost cost;                // of the reference frame

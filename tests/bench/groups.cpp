@@ -7,12 +7,14 @@ namespace vitruvia::bench {
 std::vector<Row> FitShape();
 std::vector<Row> LearnWeights();
 std::vector<Row> Scan();
+std::vector<Row> Starts();
 
 std::span<const Group> Groups() {
   static constexpr std::array kGroups = {
       Group{"fit_shape", FitShape},
       Group{"learn_weights", LearnWeights},
       Group{"scan", Scan},
+      Group{"starts", Starts},
   };
   return kGroups;
 }
