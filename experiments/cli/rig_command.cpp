@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "experiments/cli/known_person.h"
 #include "geometry/mesh_io.h"
 #include "math/statistics.h"
 #include "reports/pictures/surface_pictures.h"
@@ -20,15 +21,8 @@ namespace {
 struct RigArguments {
   fs::path meshes, space, settings, output;
   double unit_m = 1.0;
-  std::optional<double> height_m, weight_kg;
-  std::string sex;
+  PersonOptions person;
 };
-
-KnownAttributes Known(const RigArguments& a) {
-  KnownAttributes known{a.height_m, a.weight_kg, {}};
-  if (!a.sex.empty()) known.sex = a.sex == "male" ? Sex::kMale : Sex::kFemale;
-  return known;
-}
 
 TriangleMesh ReadScaled(const fs::path& file, double unit_m) {
   TriangleMesh mesh = ReadMesh(file);
@@ -36,37 +30,19 @@ TriangleMesh ReadScaled(const fs::path& file, double unit_m) {
   return mesh;
 }
 
-struct Meshes {
-  std::vector<Triangle> triangles;
-  std::vector<std::vector<Vector3f>> frames;
-};
-
-Meshes ReadFolder(const fs::path& folder, double unit_m) {
-  Meshes meshes;
-  for (const fs::path& file : MeshFilesIn(folder)) {
-    TriangleMesh mesh = ReadScaled(file, unit_m);
-    if (meshes.frames.empty()) meshes.triangles = mesh.triangles;
-    if (mesh.triangles != meshes.triangles ||
-        (!meshes.frames.empty() && mesh.vertices.size() != meshes.frames.front().size())) {
-      throw DataError(
-          fmt::format("{}: expected the triangles of the first mesh, got others", file.string()));
-    }
-    meshes.frames.push_back(std::move(mesh.vertices));
-  }
+std::vector<TriangleMesh> ReadMeshes(const fs::path& path, double unit_m) {
+  if (!fs::is_directory(path)) return {ReadScaled(path, unit_m)};
+  std::vector<TriangleMesh> meshes;
+  for (const fs::path& file : MeshFilesIn(path)) meshes.push_back(ReadScaled(file, unit_m));
   return meshes;
 }
 
-Meshes ReadFile(const fs::path& file, double unit_m) {
-  TriangleMesh mesh = ReadScaled(file, unit_m);
-  return {std::move(mesh.triangles), {std::move(mesh.vertices)}};
-}
-
 // Of the T-pose and some frames.
-void WriteSheet(const Rig& rig, const Meshes& meshes, const fs::path& stem) {
+void WriteSheet(const Rig& rig, const std::vector<TriangleMesh>& meshes, const fs::path& stem) {
   constexpr int kFrames = 6;
   RunPictures pictures;
   MeshView view(kPictureSize, kPictureSize);
-  DrawSurfaceStrips(RigStrips(rig, meshes.frames, kFrames), view, pictures);
+  DrawSurfaceStrips(RigStrips(rig, meshes, kFrames), view, pictures);
   DrawingWriter writer;
   WritePictureSheet(writer, stem, pictures);
 }
@@ -81,26 +57,24 @@ void Print(const Rig& rig) {
       100.0 * d.body_explained, 100.0 * first.margin);
   fmt::print("{:.2f} m, {:.1f} kg\n", rig.subject.attributes.height_m,
              rig.subject.attributes.weight_kg);
+  if (!rig.cost) return;
   fmt::print("frames {}: RMSE over all vertices: mean {:.2f} mm, max {:.2f} mm\n",
              rig.rmse_m.size(), 1e3 * Mean(rig.rmse_m), 1e3 * Maximum(rig.rmse_m));
   fmt::print(
       "T-pose of frame {}: put back {:.2f} mm off on average, {:.2f} mm at most; volume "
       "{:+.1f} %; {} folded triangles\n",
-      rig.reference, 1e3 * rig.cost.reposing_mean_m, 1e3 * rig.cost.reposing_max_m,
-      100.0 * rig.cost.volume_change, rig.cost.folded_triangles);
+      rig.reference, 1e3 * rig.cost->reposing_mean_m, 1e3 * rig.cost->reposing_max_m,
+      100.0 * rig.cost->volume_change, rig.cost->folded_triangles);
 }
 
 void RigToFolder(const RigArguments& a) {
   const auto settings =
       a.settings.empty() ? RigSettings() : ReadSettingsFile<RigSettings>(a.settings);
   const ShapeSpace space = ReadShapeSpace(a.space);
-  Registrar registrar(space, Known(a), settings.registration);
+  Registrar registrar(space, a.person.Known(), settings.registration);
   StagedFolder folder(a.output, "weights.bin");
-  const Meshes meshes =
-      fs::is_directory(a.meshes) ? ReadFolder(a.meshes, a.unit_m) : ReadFile(a.meshes, a.unit_m);
-  const Rig rig = meshes.frames.size() > 1
-                      ? RigSequence(meshes.triangles, meshes.frames, registrar, settings)
-                      : RigMesh({meshes.frames.front(), meshes.triangles}, registrar, settings);
+  const std::vector<TriangleMesh> meshes = ReadMeshes(a.meshes, a.unit_m);
+  const Rig rig = RigMeshes(meshes, registrar, settings);
   WriteBodyModel(folder.path(), rig.subject);
   WriteWholeFile(folder.path() / "rig.json", RigRecord(rig, settings).dump(1) + "\n");
   WriteSheet(rig, meshes, folder.path() / "rig");
@@ -117,19 +91,14 @@ void AddRigCommand(CLI::App& app) {
       "rig", "Make a subject of a person's mesh in any pose, or of a folder of meshes");
   command
       ->add_option("MESHES", a->meshes,
-                   "mesh file, or folder of mesh files with the same triangles, one for each "
+                   "mesh file, or folder of mesh files, one for each "
                    "frame; y up")
       ->required();
   command->add_option("--space", a->space, "folder of the shape space")->required();
   command->add_option("--unit", a->unit_m, "length that 1 stands for in the meshes, m")
       ->check(CLI::Range(1e-6, 1e3))
       ->capture_default_str();
-  command->add_option("--height", a->height_m, "the person's height, m, if known")
-      ->check(CLI::Range(0.5, 2.5));
-  command->add_option("--weight", a->weight_kg, "the person's weight, kg, if known")
-      ->check(CLI::Range(3.0, 400.0));
-  command->add_option("--sex", a->sex, "female or male, if known")
-      ->check(CLI::IsMember({"female", "male"}));
+  AddPersonOptions(*command, a->person);
   command->add_option("--settings", a->settings,
                       "JSON file of the settings; without it the defaults");
   command->add_option("-o,--output", a->output, "folder of the subject")->required();

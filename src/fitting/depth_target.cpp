@@ -178,20 +178,35 @@ void DepthTarget::FindPairs(const PosedBody& body, double cutoff_m, std::vector<
 
 MutualDistance DepthTarget::Measure(const PosedBody& body, const NearFar& limits) {
   const auto far_m = static_cast<float>(limits.far_m);
-  const auto distance = [&](const KdTree::Neighbor& n) {
-    return n.index < 0 ? limits.far_m : std::sqrt(double{n.squared_distance});
-  };
   FindVisible(body);
   DistanceSum from_body, from_target;
   tree_.FindNearest(visible_positions_, far_m, neighbors_);
   for (std::size_t i = 0; i < visible_.size(); ++i) {
-    if (EvidenceOf(visible_positions_[i], limits.near_m) == Evidence::kHidden) continue;
-    from_body.Add(distance(neighbors_[i]), limits);
+    const Vector3f& p = visible_positions_[i];
+    const Evidence evidence = EvidenceOf(p, limits.near_m);
+    if (evidence == Evidence::kHidden) continue;
+    if (neighbors_[i].index < 0) {
+      from_body.Add(limits.far_m, limits);
+      continue;
+    }
+    const auto s = static_cast<std::size_t>(neighbors_[i].index);
+    const Vector3f apart = p - points_.points[s];
+    from_body.Add(evidence == Evidence::kSurface
+                      ? SurfaceDistance(apart, points_.normals[s], body.mean_edge_m())
+                      : double{apart.norm()},
+                  limits);
   }
   body_tree_.Build(visible_positions_);
   body_tree_.FindNearest(seekers_.points, far_m, neighbors_);
   for (std::size_t q = 0; q < seekers_.points.size(); ++q) {
-    from_target.Add(distance(neighbors_[q]), limits);
+    if (neighbors_[q].index < 0) {
+      from_target.Add(limits.far_m, limits);
+      continue;
+    }
+    const auto v = static_cast<std::size_t>(visible_[neighbors_[q].index]);
+    from_target.Add(SurfaceDistance(seekers_.points[q] - body.vertices()[v], body.normals()[v],
+                                    body.mean_edge_m()),
+                    limits);
   }
   return {from_target.MeanOr(limits.far_m), from_body.MeanOr(limits.far_m), from_target.share(),
           from_body.share()};

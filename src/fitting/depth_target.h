@@ -29,6 +29,7 @@ class DepthTarget final : public FitTarget {
               const DepthTargetSettings& settings);
 
   bool is_empty() const { return points_.points.empty(); }
+  double height_m() const { return double{BoundingBox(points_.points).sizes().y()}; }
   void FindPairs(const PosedBody& body, double cutoff_m, std::vector<FitPair>& pairs) override;
   MutualDistance Measure(const PosedBody& body, const NearFar& limits) override;
   Vector3d Centroid() const override { return centroid_; }

@@ -1,11 +1,17 @@
-// Truncated distances added up to one side of a MutualDistance.
+// Distances added up to one side of a MutualDistance.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "fitting/fit_target.h"
 
 namespace vitruvia {
+
+// Of two points of surfaces (see MutualDistance).
+inline double SurfaceDistance(const Vector3f& apart, const Vector3f& normal, double spacing_m) {
+  return std::max<double>(std::abs(normal.dot(apart)), apart.norm() - spacing_m);
+}
 
 struct DistanceSum {
   double sum_m = 0.0;

@@ -15,8 +15,10 @@ struct FitPair {
   float weight = 1.0f;
 };
 
-// How near two surfaces are, both ways. Distances are truncated at `far_m`; what is not to be
-// expected (behind something, out of the image) does not count.
+// How near two surfaces are, both ways. The distance of a point from a surface that is known by
+// points is the one along the normal, or what its distance in space exceeds the points' spacing by
+// if that is more. Distances are truncated at `far_m`; what is not to be expected (behind
+// something, out of the image) does not count.
 struct MutualDistance {
   double target_to_body_m = 0.0;  // mean over the target's points
   double body_to_target_m = 0.0;  // mean over the body's vertices that can be judged

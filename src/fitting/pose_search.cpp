@@ -61,12 +61,12 @@ SearchOutcome SearchPose(const std::vector<PoseHypothesis>& hypotheses,
           hypotheses.size(), levels.size());
   std::vector<FoundPose> poses;
   for (const PoseHypothesis& h : hypotheses) {
-    poses.push_back(
-        {levels.front().fit->Centered(*levels.front().target, h.state), {}, h.pose, h.heading_deg});
+    poses.push_back({&h, levels.front().fit->Centered(*levels.front().target, h.state), {}});
   }
   for (const SearchLevel& level : levels) {
     for (FoundPose& pose : poses) {
       priors.angles_deg = pose.state.angles_deg;
+      priors.theta = pose.start->state.theta;
       pose.state = level.fit->Run(*level.target, pose.state, level.stage, priors);
       pose.distance = level.fit->Measure(*level.target, pose.state, limits);
     }

@@ -19,10 +19,9 @@ std::vector<PoseHypothesis> StartHypotheses(const Matrix3<double>& world_from_fr
                                             const Eigen::VectorXd& theta);
 
 struct FoundPose {
+  const PoseHypothesis* start = nullptr;
   BodyState state;
   MutualDistance distance;
-  const char* pose = "";  // of its hypothesis
-  double heading_deg = 0.0;
 };
 
 // A level of the search: a body and the target as that level sees it, and what is done with them.
@@ -40,8 +39,8 @@ struct SearchOutcome {
   double margin = 0.0;
 };
 
-// The hypotheses go through the levels; at each, those near a better one are dropped. Order of
-// equal ones is that of the hypotheses.
+// The hypotheses, which must outlive the outcome, go through the levels; at each, those near a
+// better one are dropped. Order of equal ones is that of the hypotheses.
 SearchOutcome SearchPose(const std::vector<PoseHypothesis>& hypotheses,
                          const std::vector<SearchLevel>& levels, FitPriors priors,
                          const NearFar& limits);

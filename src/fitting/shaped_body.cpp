@@ -1,5 +1,7 @@
 #include "fitting/shaped_body.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "geometry/decimation.h"
 #include "math/angles.h"
@@ -177,6 +179,15 @@ std::vector<Vector3f> ShapedSurface(const ShapedBody& body, const Eigen::VectorX
     rest[v] += moved.segment<3>(static_cast<Eigen::Index>(3 * v));
   }
   return rest;
+}
+
+PosedBody::PosedBody(const ShapedBody& body) : body_(body) {
+  for (const Triangle& t : body.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      mean_edge_m_ += (body.mean[t[k]] - body.mean[t[(k + 1) % 3]]).norm();
+    }
+  }
+  mean_edge_m_ /= std::max(1.0, 3.0 * static_cast<double>(body.triangles.size()));
 }
 
 void PosedBody::Set(const BodyState& state) {

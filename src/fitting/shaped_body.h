@@ -58,13 +58,14 @@ std::vector<Vector3f> ShapedSurface(const ShapedBody& body, const Eigen::VectorX
 // about the pelvis joint (world frame, rad), the pelvis' position (m), the angles (rad), θ.
 class PosedBody {
  public:
-  explicit PosedBody(const ShapedBody& body) : body_(body) {}
+  explicit PosedBody(const ShapedBody& body);
 
   static constexpr int kRotation = 0, kPosition = 3, kAngles = 6, kShape = 6 + kAngleCount;
   int parameter_count() const { return kShape + body_.shape_count(); }
 
   void Set(const BodyState& state);
   const ShapedBody& body() const { return body_; }
+  double mean_edge_m() const { return mean_edge_m_; }  // of the mean shape's triangles
   const std::vector<Vector3f>& vertices() const { return vertices_; }  // world frame
   const std::vector<Vector3f>& normals() const { return normals_; }
   const std::vector<Vector3d>& joints() const { return joints_; }
@@ -78,6 +79,7 @@ class PosedBody {
   using Twists = Eigen::Matrix<float, 6, Eigen::Dynamic>;  // angular velocity, velocity of origin
 
   const ShapedBody& body_;
+  double mean_edge_m_ = 0.0;
   BodyState state_;
   std::array<Matrix3<double>, kBoneCount> rotations_;  // world_from_bone
   std::vector<Vector3d> joints_;                       // posed

@@ -105,21 +105,28 @@ void SurfaceTarget::FindPairs(const PosedBody& body, double cutoff_m, std::vecto
 MutualDistance SurfaceTarget::Measure(const PosedBody& body, const NearFar& limits) {
   const std::vector<Vector3f>& vertices = body.vertices();
   const auto far_m = static_cast<float>(limits.far_m);
-  const auto distance = [&](const KdTree::Neighbor& n, const std::vector<Vector3f>& normals,
-                            const Vector3f& normal) {
-    const bool fits =
-        n.index >= 0 && normals[static_cast<std::size_t>(n.index)].dot(normal) > kLeastCosine;
-    return fits ? std::sqrt(double{n.squared_distance}) : limits.far_m;
+  // Of a point from the one that was found nearest to it.
+  const auto distance = [&](const Vector3f& point, const Vector3f& normal, int nearest,
+                            const std::vector<Vector3f>& points,
+                            const std::vector<Vector3f>& normals) {
+    if (nearest < 0) return limits.far_m;
+    const auto i = static_cast<std::size_t>(nearest);
+    if (normals[i].dot(normal) <= kLeastCosine) return limits.far_m;
+    return SurfaceDistance(point - points[i], normals[i], body.mean_edge_m());
   };
   DistanceSum from_body, from_target;
   tree_.FindNearest(vertices, far_m, neighbors_);
   for (std::size_t v = 0; v < vertices.size(); ++v) {
-    from_body.Add(distance(neighbors_[v], points_.normals, body.normals()[v]), limits);
+    from_body.Add(distance(vertices[v], body.normals()[v], neighbors_[v].index, points_.points,
+                           points_.normals),
+                  limits);
   }
   body_tree_.Build(vertices);
   body_tree_.FindNearest(seekers_.points, far_m, neighbors_);
   for (std::size_t q = 0; q < seekers_.points.size(); ++q) {
-    from_target.Add(distance(neighbors_[q], body.normals(), seekers_.normals[q]), limits);
+    from_target.Add(distance(seekers_.points[q], seekers_.normals[q], neighbors_[q].index, vertices,
+                             body.normals()),
+                    limits);
   }
   return {from_target.MeanOr(limits.far_m), from_body.MeanOr(limits.far_m), from_target.share(),
           from_body.share()};

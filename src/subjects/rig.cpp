@@ -6,13 +6,14 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <Eigen/SparseCholesky>
 
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/progress.h"
 #include "geometry/surface_map.h"
+#include "learning/shape/tracking_template.h"
 #include "learning/skinning/decomposition.h"
-#include "learning/skinning/fit_errors.h"
 #include "math/statistics.h"
 
 namespace vitruvia {
@@ -77,20 +78,60 @@ SkinWeights Smoothed(Eigen::MatrixXf weights, const TriangleMesh& mesh, int step
   return Sparsified(weights);
 }
 
-// For each vertex the rest place that its skinned motion carries nearest to its places in all
-// frames (least squares); of one frame: inverse skinning.
-Vertices RestOf(const std::vector<Vertices>& frames, const SkinWeights& weights,
-                const std::vector<BoneTransforms>& frame_from_rest) {
-  Vertices rest(weights.size());
+// Inverse skinning: for each vertex the rest place that its skinned motion carries to its place.
+Vertices InverselySkinned(const Vertices& posed, const SkinWeights& weights,
+                          const BoneTransforms& posed_from_rest) {
+  Vertices rest(posed.size());
   for (std::size_t v = 0; v < rest.size(); ++v) {
+    const AffineMotion motion = Blend(weights, v, posed_from_rest);
+    const Matrix3<double> turn = motion.leftCols<3>();
+    rest[v] = turn.partialPivLu().solve(posed[v].cast<double>() - motion.col(3)).cast<float>();
+  }
+  return rest;
+}
+
+// The rest places that the skinned motions carry nearest to the places in all frames, on average
+// over the frames, and whose differences from `prior` vary little along the surface: `stiffness`
+// weighs the squared change of that difference along an edge against a squared distance.
+Vertices AgreedRest(const std::vector<Vertices>& frames, const std::vector<Triangle>& triangles,
+                    const SkinWeights& weights, const std::vector<BoneTransforms>& frame_from_rest,
+                    const Vertices& prior, double stiffness) {
+  const auto size = static_cast<Eigen::Index>(3 * prior.size());
+  const double share = 1.0 / static_cast<double>(frames.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::VectorXd right(size);
+  for (std::size_t v = 0; v < prior.size(); ++v) {
     Matrix3<double> normal = Matrix3<double>::Zero();
-    Vector3d right = Vector3d::Zero();
+    Vector3d pull = Vector3d::Zero();
     for (std::size_t f = 0; f < frames.size(); ++f) {
       const AffineMotion motion = Blend(weights, v, frame_from_rest[f]);
-      normal += motion.leftCols<3>().transpose() * motion.leftCols<3>();
-      right += motion.leftCols<3>().transpose() * (frames[f][v].cast<double>() - motion.col(3));
+      const Matrix3<double> turn = motion.leftCols<3>();
+      normal += share * turn.transpose() * turn;
+      pull += share * turn.transpose() *
+              (frames[f][v].cast<double>() - motion.col(3) - turn * prior[v].cast<double>());
     }
-    rest[v] = normal.ldlt().solve(right).cast<float>();
+    const auto at = static_cast<int>(3 * v);
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) entries.emplace_back(at + i, at + j, normal(i, j));
+    }
+    right.segment<3>(at) = pull;
+  }
+  for (const Triangle& t : triangles) {  // each edge once from either side
+    for (int k = 0; k < 3; ++k) {
+      for (int i = 0; i < 3; ++i) {
+        entries.emplace_back(3 * t[k] + i, 3 * t[k] + i, stiffness);
+        entries.emplace_back(3 * t[k] + i, 3 * t[(k + 1) % 3] + i, -0.5 * stiffness);
+        entries.emplace_back(3 * t[(k + 1) % 3] + i, 3 * t[k] + i, -0.5 * stiffness);
+      }
+    }
+  }
+  Eigen::SparseMatrix<double> matrix(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::VectorXd moved =
+      Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).solve(right);
+  Vertices rest = prior;
+  for (std::size_t v = 0; v < rest.size(); ++v) {
+    rest[v] += moved.segment<3>(static_cast<Eigen::Index>(3 * v)).cast<float>();
   }
   return rest;
 }
@@ -169,16 +210,23 @@ void StandOnFloor(BodyModel& body, std::vector<BoneTransforms>& frame_from_subje
   }
 }
 
-void RequireClosed(const TriangleMesh& mesh) {
-  const MeshReport report = InspectMesh(mesh);
-  if (report.problem.empty()) return;
-  throw DataError(fmt::format(
-      "rig: the mesh must be one closed surface to become a subject's, but {}", report.problem));
-}
-
-void RequirePerson(const Registration& registration, std::size_t frame) {
-  if (registration.problem.empty()) return;
-  throw DataError(fmt::format("rig: frame {}: {}", frame, registration.problem));
+void RequireOneClosedSurface(const std::vector<TriangleMesh>& frames) {
+  constexpr const char* kElsewise = "; surface \"model\" takes meshes of any kind";
+  const MeshReport report = InspectMesh(frames.front());
+  if (!report.problem.empty()) {
+    throw DataError(fmt::format("rig: frame 0: expected one closed surface, but {}{}",
+                                report.problem, kElsewise));
+  }
+  for (std::size_t f = 1; f < frames.size(); ++f) {
+    if (frames[f].triangles == frames.front().triangles &&
+        frames[f].vertices.size() == frames.front().vertices.size()) {
+      continue;
+    }
+    throw DataError(
+        fmt::format("rig: frame {}: expected the {} vertices and the triangles of "
+                    "frame 0, got {} vertices or other triangles{}",
+                    f, frames.front().vertices.size(), frames[f].vertices.size(), kElsewise));
+  }
 }
 
 BodyModel Subject(const TriangleMesh& rest, SkinWeights weights, const BodyModel& model) {
@@ -189,18 +237,28 @@ BodyModel Subject(const TriangleMesh& rest, SkinWeights weights, const BodyModel
   return subject;
 }
 
-std::vector<Registration> RegisterAll(const std::vector<Triangle>& triangles,
-                                      const std::vector<Vertices>& frames, Registrar& registrar) {
-  std::vector<Registration> registrations;
+// The body on every frame, the first one found anywhere, the others from the one before.
+Rig Registered(const std::vector<TriangleMesh>& frames, Registrar& registrar) {
+  Rig rig;
   Progress progress("register", static_cast<int>(frames.size()));
   for (std::size_t f = 0; f < frames.size(); ++f) {
-    const TriangleMesh mesh{frames[f], triangles};
-    registrations.push_back(f == 0 ? registrar.Find(mesh)
-                                   : registrar.Follow(mesh, registrations.back().state));
-    RequirePerson(registrations.back(), f);
+    rig.registrations.push_back(f == 0
+                                    ? registrar.Find(frames[f])
+                                    : registrar.Follow(frames[f], rig.registrations.back().state));
+    const Registration& registration = rig.registrations.back();
+    if (!registration.problem.empty()) {
+      throw DataError(fmt::format("rig: frame {}: {}", f, registration.problem));
+    }
+    if (registration.distance.mean_m() <
+        rig.registrations[static_cast<std::size_t>(rig.reference)].distance.mean_m()) {
+      rig.reference = static_cast<int>(f);
+    }
+    rig.model_frames.push_back(registrar.SurfaceFromSubject(registration.state));
     progress.Advance();
   }
-  return registrations;
+  rig.model = registrar.Body(rig.registrations.front().state.theta);
+  rig.frames = rig.model_frames;
+  return rig;
 }
 
 // Frames from first to last, evenly spaced.
@@ -212,9 +270,46 @@ std::vector<Item> Spread(const std::vector<Item>& all, int most) {
   return chosen;
 }
 
+// Weights from the registered body in the reference frame, and the T-pose by inverse skinning.
+void CarryOver(const std::vector<Vertices>& frames, const std::vector<Triangle>& triangles,
+               const RigSettings& settings, Rig& rig) {
+  const auto reference = static_cast<std::size_t>(rig.reference);
+  const TriangleMesh mesh{frames[reference], triangles};
+  SkinWeights weights = Smoothed(CarriedOver(mesh, rig.model, rig.model_frames[reference]), mesh,
+                                 settings.smoothing_steps);
+  const Vertices rest = InverselySkinned(mesh.vertices, weights, rig.model_frames[reference]);
+  rig.subject = Subject({rest, triangles}, std::move(weights), rig.model);
+}
+
+// Weights, bone transforms, T-pose and joints from all frames.
+void LearnFromFrames(const std::vector<Vertices>& frames, const std::vector<Triangle>& triangles,
+                     const RigSettings& settings, Rig& rig) {
+  BodyModel& subject = rig.subject;
+  const skinning::Labels labels = skinning::HeaviestBones(subject.weights);
+  subject.weights =
+      skinning::Decompose({subject.rest.vertices, Spread(frames, settings.learning_frames)}, labels,
+                          skinning::CandidateBones(labels, triangles, kBoneCount, settings.weights),
+                          settings.weights)
+          .weights;
+  const auto fit_transforms = [&] {
+    return skinning::FitTransforms({subject.rest.vertices, frames}, subject.weights, kBoneCount,
+                                   settings.weights.threads)
+        .poses;
+  };
+  rig.frames = fit_transforms();
+  subject.rest.vertices = AgreedRest(frames, triangles, subject.weights, rig.frames,
+                                     subject.rest.vertices, settings.rest_stiffness);
+  rig.frames = fit_transforms();
+  MoveJoints(rig.frames, settings.joint_slack_m, subject.skeleton);
+}
+
 }  // namespace
 
 void RigSettings::Describe(Fields& f) {
+  f.Choice(
+      "surface", surface, {{"mesh", RigSurface::kMesh}, {"model", RigSurface::kModel}},
+      {.meaning = "whose surface becomes the subject's: mesh: the meshes' own, closed and of the "
+                  "same triangles; model: the registered body's"});
   f.Section("registration", registration, {.meaning = "how a body is put onto the meshes"});
   f.Section("weights", weights, {.meaning = "how skinning weights are learnt from a sequence"});
   f.Integer("smoothing_steps", smoothing_steps,
@@ -229,6 +324,14 @@ void RigSettings::Describe(Fields& f) {
              .max = 100000,
              .origin = Origin::kGuessed,
              .source = "paper A, sec. 4 has 70 poses"});
+  f.Number(
+      "rest_stiffness", rest_stiffness,
+      {.meaning = "how stiffly the T-pose that all frames agree on best holds on to the one of "
+                  "inverse skinning: weight of a squared change along an edge against a squared "
+                  "distance from a frame's mesh",
+       .min = 0.0,
+       .max = 1e6,
+       .origin = Origin::kGuessed});
   f.Number("joint_slack_m", joint_slack_m,
            {.meaning = "standard deviation of a joint, as the frames' motions place it, from where "
                        "the registered body has it",
@@ -238,61 +341,25 @@ void RigSettings::Describe(Fields& f) {
             .origin = Origin::kGuessed});
 }
 
-Rig RigMesh(const TriangleMesh& mesh, Registrar& registrar, const RigSettings& settings) {
-  RequireClosed(mesh);
-  Rig rig;
-  rig.registrations.push_back(registrar.Find(mesh));
-  RequirePerson(rig.registrations.front(), 0);
-  const BodyState& state = rig.registrations.front().state;
-  const BodyModel model = registrar.Body(state.theta);
-  rig.frames.push_back(registrar.SurfaceFromSubject(state));
-  SkinWeights weights =
-      Smoothed(CarriedOver(mesh, model, rig.frames.front()), mesh, settings.smoothing_steps);
-  const Vertices rest = RestOf({mesh.vertices}, weights, rig.frames);
-  rig.subject = Subject({rest, mesh.triangles}, std::move(weights), rig.model);
-  StandOnFloor(rig.subject, rig.frames);
-  rig.rmse_m = FrameErrors({mesh.vertices}, rig.subject, rig.frames);
-  rig.cost = CostOf(mesh, rig.subject, rig.frames.front());
-  return rig;
-}
-
-Rig RigSequence(const std::vector<Triangle>& triangles, const std::vector<Vertices>& frames,
-                Registrar& registrar, const RigSettings& settings) {
-  RequireClosed({frames.front(), triangles});
-  Rig rig;
-  rig.registrations = RegisterAll(triangles, frames, registrar);
-  const auto best = std::min_element(rig.registrations.begin(), rig.registrations.end(),
-                                     [](const Registration& a, const Registration& b) {
-                                       return a.distance.mean_m() < b.distance.mean_m();
-                                     });
-  rig.reference = static_cast<int>(best - rig.registrations.begin());
-  const auto reference = static_cast<std::size_t>(rig.reference);
-  rig.model = registrar.Body(rig.registrations.front().state.theta);
-  for (const Registration& r : rig.registrations) {
-    rig.model_frames.push_back(registrar.SurfaceFromSubject(r.state));
+Rig RigMeshes(const std::vector<TriangleMesh>& frames, Registrar& registrar,
+              const RigSettings& settings) {
+  Require(!frames.empty(), "RigMeshes: no frames");
+  if (settings.surface == RigSurface::kMesh) RequireOneClosedSurface(frames);
+  Rig rig = Registered(frames, registrar);
+  if (settings.surface == RigSurface::kModel) {
+    rig.subject = OnTrackingMesh(rig.model, MakeTrackingTemplate(rig.model.rest));
+    rig.subject.name = "rigged";
+    return rig;
   }
-  rig.frames = rig.model_frames;
-
-  const TriangleMesh reference_mesh{frames[reference], triangles};
-  SkinWeights weights = Smoothed(CarriedOver(reference_mesh, rig.model, rig.frames[reference]),
-                                 reference_mesh, settings.smoothing_steps);
-  Vertices rest = RestOf(frames, weights, rig.frames);
-  const skinning::Labels labels = skinning::HeaviestBones(weights);
-  const skinning::Decomposition learnt = skinning::Decompose(
-      {rest, Spread(frames, settings.learning_frames)}, labels,
-      skinning::CandidateBones(labels, triangles, kBoneCount, settings.weights), settings.weights);
-  rig.frames =
-      skinning::FitTransforms({rest, frames}, learnt.weights, kBoneCount, settings.weights.threads)
-          .poses;
-  rest = RestOf(frames, learnt.weights, rig.frames);
-  rig.frames =
-      skinning::FitTransforms({rest, frames}, learnt.weights, kBoneCount, settings.weights.threads)
-          .poses;
-  rig.subject = Subject({rest, triangles}, learnt.weights, rig.model);
-  MoveJoints(rig.frames, settings.joint_slack_m, rig.subject.skeleton);
+  const std::vector<Triangle>& triangles = frames.front().triangles;
+  std::vector<Vertices> places;
+  for (const TriangleMesh& frame : frames) places.push_back(frame.vertices);
+  CarryOver(places, triangles, settings, rig);
+  if (frames.size() > 1) LearnFromFrames(places, triangles, settings, rig);
   StandOnFloor(rig.subject, rig.frames);
-  rig.rmse_m = FrameErrors(frames, rig.subject, rig.frames);
-  rig.cost = CostOf(reference_mesh, rig.subject, rig.frames[reference]);
+  const auto reference = static_cast<std::size_t>(rig.reference);
+  rig.rmse_m = FrameErrors(places, rig.subject, rig.frames);
+  rig.cost = CostOf(frames[reference], rig.subject, rig.frames[reference]);
   return rig;
 }
 
@@ -304,20 +371,23 @@ Json RigRecord(const Rig& rig, const RigSettings& settings) {
                       {"surface_to_body_m", r.distance.target_to_body_m},
                       {"body_to_surface_m", r.distance.body_to_target_m},
                       {"surface_explained", r.distance.target_explained},
-                      {"body_explained", r.distance.body_explained},
-                      {"rmse_m", rig.rmse_m[f]}});
+                      {"body_explained", r.distance.body_explained}});
+    if (!rig.rmse_m.empty()) frames.back()["rmse_m"] = rig.rmse_m[f];
   }
-  return {{"made_by", "vitruvia rig"},
-          {"settings", WriteSettings(settings)},
-          {"reference_frame", rig.reference},
-          {"margin", rig.registrations.front().margin},
-          {"cost",
-           {{"reposing_mean_m", rig.cost.reposing_mean_m},
-            {"reposing_max_m", rig.cost.reposing_max_m},
-            {"volume_change", rig.cost.volume_change},
-            {"folded_triangles", rig.cost.folded_triangles}}},
-          {"frames", frames},
-          {"build", Provenance()}};
+  Json record = {{"made_by", "vitruvia rig"},
+                 {"settings", WriteSettings(settings)},
+                 {"reference_frame", rig.reference},
+                 {"frames", frames},
+                 {"build", Provenance()}};
+  const double margin = rig.registrations.front().margin;
+  if (std::isfinite(margin)) record["margin"] = margin;
+  if (rig.cost) {
+    record["cost"] = {{"reposing_mean_m", rig.cost->reposing_mean_m},
+                      {"reposing_max_m", rig.cost->reposing_max_m},
+                      {"volume_change", rig.cost->volume_change},
+                      {"folded_triangles", rig.cost->folded_triangles}};
+  }
+  return record;
 }
 
 }  // namespace vitruvia

@@ -2,7 +2,7 @@
 // nothing but them and a shape space (learning/registration).
 #pragma once
 
-#include <functional>
+#include <optional>
 #include <vector>
 
 #include "config/json_settings.h"
@@ -11,12 +11,21 @@
 
 namespace vitruvia {
 
+// Which surface becomes the subject's.
+enum class RigSurface {
+  kMesh,   // the meshes' own: closed, and the same triangles in all frames
+  kModel,  // that of the registered body: for meshes with holes, in pieces, or of changing
+           // triangles
+};
+
 struct RigSettings {
+  RigSurface surface = RigSurface::kMesh;
   RegistrationSettings registration;
   skinning::Settings weights;  // of a sequence
   int smoothing_steps = 10;
   int learning_frames = 60;
   double joint_slack_m = 0.02;
+  double rest_stiffness = 3.0;
 
   void Describe(Fields& fields);
 };
@@ -34,20 +43,19 @@ struct Rig {
   BodyModel model;                           // the body that was registered, in the T-pose
   std::vector<BoneTransforms> model_frames;  // frame_from_model
   std::vector<BoneTransforms> frames;        // frame_from_subject
-  std::vector<double> rmse_m;  // of each frame: the skinned subject against the frame's mesh
-  int reference = 0;           // the frame that weights were carried over in
-  RigCost cost;                // of the reference frame
+  int reference = 0;  // the frame with the best registration: weights are carried over in it
+  // Of surface kMesh only:
+  std::vector<double> rmse_m;   // of each frame: the skinned subject against the frame's mesh
+  std::optional<RigCost> cost;  // of the reference frame
 };
 
-// One mesh in any pose. DataError if it is no closed surface, or no person.
-Rig RigMesh(const TriangleMesh& mesh, Registrar& registrar, const RigSettings& settings);
-
-// Meshes of the same triangles: weights and bone transforms are learnt from the frames (paper A,
-// eqs. 2–5), the T-pose follows from all of them by least squares. DataError naming the frame if
-// one is no person.
-Rig RigSequence(const std::vector<Triangle>& triangles,
-                const std::vector<std::vector<Vector3f>>& frames, Registrar& registrar,
-                const RigSettings& settings);
+// One mesh, or one for each frame, in any pose; y up, metres. Of surface kMesh the weights are
+// carried over from the registered body and smoothed, and the T-pose follows by inverse skinning;
+// of several frames weights and bone transforms are then learnt from them (paper A, eqs. 2–5), and
+// the T-pose is that which they all agree on best. DataError naming the frame if one is no person,
+// is not closed, or has other triangles than the first.
+Rig RigMeshes(const std::vector<TriangleMesh>& frames, Registrar& registrar,
+              const RigSettings& settings);
 
 Json RigRecord(const Rig& rig, const RigSettings& settings);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/surface_map.h"
 #include "math/angles.h"
 
 namespace vitruvia {
@@ -20,24 +21,39 @@ TriangleMesh Centred(Vertices vertices, const std::vector<Triangle>& triangles) 
 
 struct Shown {
   std::string label;
-  Vertices mesh, registered, skinned;
+  TriangleMesh mesh;
+  Vertices registered, skinned;
   double heading_deg;  // that the person faces
 };
 
+std::vector<float> Errors(const Rig& rig, const Shown& shown) {
+  std::vector<float> errors_m;
+  const bool has_own_surface = rig.cost.has_value();
+  const std::vector<SurfacePoint> nearest = has_own_surface
+                                                ? std::vector<SurfacePoint>()
+                                                : ClosestSurfacePoints(shown.skinned, shown.mesh);
+  for (std::size_t v = 0; v < shown.skinned.size(); ++v) {
+    const Vector3f place =
+        has_own_surface ? shown.mesh.vertices[v]
+                        : Evaluate(nearest[v], shown.mesh.vertices.data(), shown.mesh.triangles);
+    errors_m.push_back((shown.skinned[v] - place).norm());
+  }
+  return errors_m;
+}
+
 SurfaceStrip Strip(const Rig& rig, const Shown& shown) {
-  const std::vector<Triangle>& triangles = rig.subject.rest.triangles;
   const double turn_deg = -shown.heading_deg;
-  const ShownSurface mesh{Centred(shown.mesh, triangles), SurfaceColor::kTruth, {}};
+  const ShownSurface mesh{
+      Centred(shown.mesh.vertices, shown.mesh.triangles), SurfaceColor::kTruth, {}};
   const ShownSurface registered{
       Centred(shown.registered, rig.model.rest.triangles), SurfaceColor::kEstimate, {}};
-  const ShownSurface skinned{Centred(shown.skinned, triangles), SurfaceColor::kEstimate, {}};
+  const ShownSurface skinned{
+      Centred(shown.skinned, rig.subject.rest.triangles), SurfaceColor::kEstimate, {}};
   ShownSurface bones = skinned, errors = skinned;
   bones.color = SurfaceColor::kBone;
   for (const auto& heaviest : rig.subject.weights.bones) bones.values.push_back(heaviest[0]);
   errors.color = SurfaceColor::kError;
-  for (std::size_t v = 0; v < shown.mesh.size(); ++v) {
-    errors.values.push_back((shown.skinned[v] - shown.mesh[v]).norm());
-  }
+  errors.values = Errors(rig, shown);
   return {shown.label,
           "",
           {{"mesh", turn_deg, {mesh}},
@@ -60,11 +76,10 @@ double Heading_deg(const Matrix3<double>& rotation) {
 
 }  // namespace
 
-std::vector<SurfaceStrip> RigStrips(const Rig& rig, const std::vector<Vertices>& frames,
+std::vector<SurfaceStrip> RigStrips(const Rig& rig, const std::vector<TriangleMesh>& frames,
                                     int count) {
-  std::vector<SurfaceStrip> strips{
-      Strip(rig, {"T-pose", rig.subject.rest.vertices, rig.model.rest.vertices,
-                  rig.subject.rest.vertices, 0.0})};
+  std::vector<SurfaceStrip> strips{Strip(
+      rig, {"T-pose", rig.subject.rest, rig.model.rest.vertices, rig.subject.rest.vertices, 0.0})};
   const std::size_t shown = std::min(frames.size(), static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < shown; ++i) {
     const std::size_t f = i * frames.size() / shown;

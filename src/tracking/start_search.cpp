@@ -82,17 +82,17 @@ FoundStart StartSearch::Find(const DepthImage& depth) {
     start.message = "not found: the frame holds too few measurements";
     return start;
   }
-  const std::vector<SearchLevel> levels{
-      {&coarse_, &coarse_target, {0}, 48},
-      {&coarse_, &coarse_target, {5, 0.6, 0.3, 1.0, false}, 12},
-      {&coarse_, &coarse_target, {8, 0.3, 0.12, 0.3, false}, 5},
-      {&fine_, &fine_target, {12, 0.15, 0.05, 0.05, false}, 2}};
+  const std::vector<SearchLevel> levels{{&coarse_, &coarse_target, {0}, 48},
+                                        {&coarse_, &coarse_target, {5, 0.6, 0.3, 1.0, false}, 12},
+                                        {&coarse_, &coarse_target, {8, 0.3, 0.12, 0.3, false}, 5},
+                                        {&fine_, &fine_target, {12, 0.15, 0.05, 0.05, false}, 2}};
   FitPriors priors;
   priors.angle_deviation_deg = settings_.angle_deviation_deg;
   const Matrix3<double> facing_camera = Vector3d(1.0, -1.0, -1.0).asDiagonal();
+  const std::vector<PoseHypothesis> hypotheses =
+      StartHypotheses(facing_camera, settings_.headings, Eigen::VectorXd());
   const SearchOutcome found =
-      SearchPose(StartHypotheses(facing_camera, settings_.headings, Eigen::VectorXd()), levels,
-                 priors, {settings_.near_m, settings_.far_m});
+      SearchPose(hypotheses, levels, priors, {settings_.near_m, settings_.far_m});
   start.camera_from_rest = WorldFromRest(fine_body_, found.best.state);
   start.distance = found.best.distance;
   start.margin = found.margin;
@@ -102,7 +102,7 @@ FoundStart StartSearch::Find(const DepthImage& depth) {
   start.message = fmt::format(
       "{}: from {}, heading {:.0f} degrees: {:.0f} % of the points and {:.0f} % of the body "
       "explained (expected at least {:.0f} %), the second-best pose is {:.0f} % farther",
-      start.found ? "found" : "not found", found.best.pose, found.best.heading_deg,
+      start.found ? "found" : "not found", found.best.start->pose, found.best.start->heading_deg,
       100.0 * d.target_explained, 100.0 * d.body_explained, 100.0 * settings_.least_explained,
       100.0 * start.margin);
   return start;

@@ -43,8 +43,10 @@ TEST(PoseSearch, FindsAPersonOnASurface) {
       SampleSurface({Posed(body, fine, truth), body.rest.triangles}, 8000);
   SurfaceTarget coarse_target(points, 400, Clothing::kNone);
   SurfaceTarget fine_target(points, 1500, Clothing::kNone);
+  const std::vector<PoseHypothesis> hypotheses =
+      StartHypotheses(Matrix3<double>::Identity(), 8, Eigen::VectorXd());
   const SearchOutcome found =
-      SearchPose(StartHypotheses(Matrix3<double>::Identity(), 8, Eigen::VectorXd()),
+      SearchPose(hypotheses,
                  {{&coarse_fit, &coarse_target, {6, 0.5, 0.25, 1.0, false}, 10},
                   {&coarse_fit, &coarse_target, {10, 0.3, 0.1, 0.2, false}, 4},
                   {&fine_fit, &fine_target, {15, 0.1, 0.02, 0.01, false}, 2}},
@@ -67,8 +69,9 @@ TEST(PoseSearch, FindsAPersonInADepthFrame) {
   const DepthImage depth = zbuffer.Render(Posed(body, fine, truth), body.rest.triangles);
   DepthTarget coarse_target(depth, camera, {80, 1500, 300});
   DepthTarget fine_target(depth, camera, {160, 4000, 1000});
+  const std::vector<PoseHypothesis> hypotheses = StartHypotheses(facing, 8, Eigen::VectorXd());
   const SearchOutcome found =
-      SearchPose(StartHypotheses(facing, 8, Eigen::VectorXd()),
+      SearchPose(hypotheses,
                  {{&coarse_fit, &coarse_target, {5, 0.6, 0.3, 1.0, false}, 16},
                   {&coarse_fit, &coarse_target, {8, 0.3, 0.12, 0.3, false}, 5},
                   {&fine_fit, &fine_target, {12, 0.15, 0.05, 0.05, false}, 2}},

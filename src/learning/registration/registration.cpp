@@ -4,11 +4,15 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "fitting/depth_target.h"
 
 namespace vitruvia {
 namespace {
 
 constexpr int kCoarseSeekers = 500, kFineSeekers = 2000;
+constexpr DepthTargetSettings kCoarseFrame{80, 2000, 400};
+constexpr DepthTargetSettings kFineFrame{160, 6000, 1500};
+constexpr double kMostUnusual = 3.0;  // shape of known attributes, standard deviations
 
 // The space's first coefficients, and as the last one a uniform scale about the vertices' mean.
 ShapedBody WithScale(const ShapeSpace& space, int components, double scale_deviation) {
@@ -108,6 +112,7 @@ Registrar::Registrar(const ShapeSpace& space, const KnownAttributes& known,
         fmt::format("registration: components: expected at most the {} of the shape space, got {}",
                     space.components(), settings.components));
   }
+  expected_ = ShapeOfSize(space, known, settings.components, kMostUnusual);
   const ShapedBody whole = WithScale(space, settings.components, settings.scale_deviation);
   fine_body_ = Coarser(whole, settings.fine_vertices);
   coarse_body_ = Coarser(whole, settings.coarse_vertices);
@@ -117,61 +122,73 @@ Registrar::Registrar(const ShapeSpace& space, const KnownAttributes& known,
 
 Registrar::~Registrar() = default;
 
-FitPriors Registrar::Priors() const {
-  FitPriors priors;
-  priors.angle_deviation_deg = settings_.angle_deviation_deg;
-  priors.theta = Eigen::VectorXd::Zero(fine_body_.shape_count());
-  return priors;
+// What is expected of the person; if the height is not known, scaled so that the posed body is as
+// high as what is seen.
+Eigen::VectorXd Registrar::StartShape(const PoseHypothesis& hypothesis, double height_m) const {
+  const auto scaled = [&](double scale) {
+    Eigen::VectorXd theta(fine_body_.shape_count());
+    theta << scale * expected_.theta, (scale - 1.0) / settings_.scale_deviation;
+    return theta;
+  };
+  if (known_.height_m) return scaled(expected_.scale);
+  BodyState state = hypothesis.state;
+  state.theta = scaled(1.0);
+  PosedBody posed(coarse_body_);
+  posed.Set(state);
+  constexpr double kLeastHeight_m = 0.7, kMostHeight_m = 2.2;
+  const double standing_m = HeightOf(ShapedSurface(coarse_body_, state.theta));
+  return scaled(std::clamp(height_m / HeightOf(posed.vertices()), kLeastHeight_m / standing_m,
+                           kMostHeight_m / standing_m));
 }
 
-// The mean shape, scaled to the person's height, or so that the posed body is as high as the
-// surface.
-Eigen::VectorXd Registrar::StartShape(const TriangleMesh& surface,
-                                      const PoseHypothesis& hypothesis) const {
-  Eigen::VectorXd theta = Eigen::VectorXd::Zero(coarse_body_.shape_count());
-  double ratio = 1.0;
-  if (known_.height_m) {
-    ratio = *known_.height_m / HeightOf(coarse_body_.mean);
-  } else {
-    BodyState state = hypothesis.state;
-    state.theta = theta;
-    PosedBody posed(coarse_body_);
-    posed.Set(state);
-    ratio = HeightOf(surface.vertices) / HeightOf(posed.vertices());
-  }
-  constexpr double kLeastHeight_m = 0.7, kMostHeight_m = 2.2;
-  const double mean_m = HeightOf(coarse_body_.mean);
-  ratio = std::clamp(ratio, kLeastHeight_m / mean_m, kMostHeight_m / mean_m);
-  theta[theta.size() - 1] = (ratio - 1.0) / settings_.scale_deviation;
-  return theta;
+Registration Registrar::Search(const Matrix3<double>& world_from_front, double height_m,
+                               FitTarget& coarse_target, FitTarget& fine_target) {
+  std::vector<PoseHypothesis> hypotheses =
+      StartHypotheses(world_from_front, settings_.headings, Eigen::VectorXd());
+  for (PoseHypothesis& h : hypotheses) h.state.theta = StartShape(h, height_m);
+  const std::vector<SearchLevel> levels{
+      {coarse_.get(), &coarse_target, {6, 0.5, 0.25, 0.5, false}, 20},
+      {coarse_.get(), &coarse_target, {10, 0.3, 0.12, 0.2, true}, 6},
+      {fine_.get(), &fine_target, {15, 0.15, 0.05, 0.05, true}, 2}};
+  FitPriors priors;
+  priors.angle_deviation_deg = settings_.angle_deviation_deg;
+  const SearchOutcome found =
+      SearchPose(hypotheses, levels, priors, {settings_.near_m, settings_.far_m});
+  Registration registration{found.best.state, found.best.distance, found.margin,
+                            fmt::format("{}, heading {:.0f} degrees", found.best.start->pose,
+                                        found.best.start->heading_deg),
+                            ""};
+  Judge(registration);
+  return registration;
 }
 
 Registration Registrar::Find(const TriangleMesh& surface) {
   const OrientedPoints points = SampleSurface(surface, settings_.surface_points);
   SurfaceTarget coarse_target(points, kCoarseSeekers, settings_.clothing);
   SurfaceTarget fine_target(points, kFineSeekers, settings_.clothing);
-  std::vector<PoseHypothesis> hypotheses =
-      StartHypotheses(Matrix3<double>::Identity(), settings_.headings,
-                      Eigen::VectorXd::Zero(fine_body_.shape_count()));
-  for (PoseHypothesis& h : hypotheses) h.state.theta = StartShape(surface, h);
-  const std::vector<SearchLevel> levels{
-      {coarse_.get(), &coarse_target, {6, 0.5, 0.25, 1.0, false}, 20},
-      {coarse_.get(), &coarse_target, {10, 0.3, 0.12, 0.2, true}, 6},
-      {fine_.get(), &fine_target, {15, 0.15, 0.05, 0.05, true}, 2}};
-  const SearchOutcome found =
-      SearchPose(hypotheses, levels, Priors(), {settings_.near_m, settings_.far_m});
-  Registration registration{
-      found.best.state, found.best.distance, found.margin,
-      fmt::format("{}, heading {:.0f} degrees", found.best.pose, found.best.heading_deg), ""};
-  Judge(registration);
-  return registration;
+  return Search(Matrix3<double>::Identity(), HeightOf(surface.vertices), coarse_target,
+                fine_target);
+}
+
+Registration Registrar::Find(const DepthImage& depth, const PinholeCamera& camera) {
+  DepthTarget coarse_target(depth, camera, kCoarseFrame);
+  DepthTarget fine_target(depth, camera, kFineFrame);
+  if (coarse_target.is_empty() || fine_target.is_empty()) {
+    Registration none;
+    none.problem = "no person: the frame holds too few measurements";
+    return none;
+  }
+  const Matrix3<double> facing_camera = Vector3d(1.0, -1.0, -1.0).asDiagonal();
+  return Search(facing_camera, fine_target.height_m(), coarse_target, fine_target);
 }
 
 Registration Registrar::Follow(const TriangleMesh& surface, const BodyState& near) {
   SurfaceTarget target(SampleSurface(surface, settings_.surface_points), kFineSeekers,
                        settings_.clothing);
-  FitPriors priors = Priors();
+  FitPriors priors;
+  priors.angle_deviation_deg = settings_.angle_deviation_deg;
   priors.angles_deg = near.angles_deg;
+  priors.theta = near.theta;
   Registration registration;
   registration.state = coarse_->Run(target, near, {6, 0.3, 0.1, 0.2, false}, priors);
   registration.state = fine_->Run(target, registration.state, {6, 0.1, 0.05, 0.05, false}, priors);

@@ -7,13 +7,14 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "config/settings.h"
 #include "fitting/pose_search.h"
 #include "fitting/surface_target.h"
-#include "learning/shape/shape_space.h"
+#include "geometry/camera.h"
+#include "geometry/image.h"
+#include "learning/shape/sized_body.h"
 
 namespace vitruvia {
 
@@ -30,12 +31,6 @@ struct RegistrationSettings {
   double most_distance_m = 0.04;
 
   void Describe(Fields& fields);
-};
-
-// What is known of the person; what is not known follows from the surface.
-struct KnownAttributes {
-  std::optional<double> height_m, weight_kg;
-  std::optional<Sex> sex;
 };
 
 struct Registration {
@@ -55,6 +50,8 @@ class Registrar {
 
   // Meshes need not be closed nor of one piece; y is up, metres. Vertices in the mesh's frame.
   Registration Find(const TriangleMesh& surface);
+  // In the camera's frame: y down. The frame's measurements are the person's.
+  Registration Find(const DepthImage& depth, const PinholeCamera& camera);
   // From a state that is near, for the next surface of a sequence: the shape stays.
   Registration Follow(const TriangleMesh& surface, const BodyState& near);
 
@@ -64,16 +61,17 @@ class Registrar {
   BoneTransforms SurfaceFromSubject(const BodyState& state) const;
 
  private:
-  FitPriors Priors() const;
+  Registration Search(const Matrix3<double>& world_from_front, double height_m,
+                      FitTarget& coarse_target, FitTarget& fine_target);
+  Eigen::VectorXd StartShape(const PoseHypothesis& hypothesis, double height_m) const;
   void Judge(Registration& registration) const;
-  Eigen::VectorXd StartShape(const TriangleMesh& surface, const PoseHypothesis& hypothesis) const;
 
   const ShapeSpace& space_;
   RegistrationSettings settings_;
   KnownAttributes known_;
+  SizedShape expected_;  // of what is known
   ShapedBody fine_body_, coarse_body_;
   std::unique_ptr<PoseFit> fine_, coarse_;
-  Eigen::VectorXd expected_theta_;
 };
 
 }  // namespace vitruvia
