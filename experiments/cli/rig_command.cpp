@@ -1,6 +1,6 @@
 #include "experiments/cli/rig_command.h"
 
-#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -52,9 +52,12 @@ void Print(const Rig& rig) {
   const MutualDistance& d = first.distance;
   fmt::print(
       "registered from {}: surface to body {:.1f} mm, body to surface {:.1f} mm; {:.0f} % of the "
-      "surface and {:.0f} % of the body explained; the second-best pose is {:.0f} % farther\n",
+      "surface and {:.0f} % of the body explained; {}\n",
       first.start, 1e3 * d.target_to_body_m, 1e3 * d.body_to_target_m, 100.0 * d.target_explained,
-      100.0 * d.body_explained, 100.0 * first.margin);
+      100.0 * d.body_explained,
+      std::isfinite(first.margin)
+          ? fmt::format("the second-best pose is {:.0f} % farther", 100.0 * first.margin)
+          : "no other pose came near");
   fmt::print("{:.2f} m, {:.1f} kg\n", rig.subject.attributes.height_m,
              rig.subject.attributes.weight_kg);
   if (!rig.cost) return;

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <Eigen/Eigenvalues>
 
 #include "fitting/distance_sum.h"
+#include "geometry/point_cloud.h"
 
 namespace vitruvia {
 namespace {
@@ -103,12 +105,6 @@ OrientedPoints PointsOf(const DepthImage& depth, const PinholeCamera& camera, in
   return points;
 }
 
-Vector3d Mean(const std::vector<Vector3f>& points) {
-  Vector3d sum = Vector3d::Zero();
-  for (const Vector3f& p : points) sum += p.cast<double>();
-  return sum / static_cast<double>(std::max<std::size_t>(1, points.size()));
-}
-
 }  // namespace
 
 DepthTarget::DepthTarget(const DepthImage& depth, const PinholeCamera& camera,
@@ -117,7 +113,7 @@ DepthTarget::DepthTarget(const DepthImage& depth, const PinholeCamera& camera,
       cells_(Cells(depth, cell_camera_, settings.max_depth_m)),
       points_(PointsOf(depth, camera, settings.points, settings.max_depth_m)),
       seekers_(EvenlyChosen(points_, settings.seekers)),
-      centroid_(Mean(points_.points)),
+      centroid_(Centroid(points_.points)),
       zbuffer_(cell_camera_) {
   tree_.Build(points_.points);
 }
@@ -212,9 +208,9 @@ MutualDistance DepthTarget::Measure(const PosedBody& body, const NearFar& limits
           from_body.share()};
 }
 
-Vector3d DepthTarget::VisibleCentroid(const PosedBody& body) {
+Vector3d DepthTarget::VisibleCenter(const PosedBody& body) {
   FindVisible(body);
-  return visible_positions_.empty() ? body.joints()[0] : Mean(visible_positions_);
+  return visible_positions_.empty() ? body.joints()[0] : Centroid(visible_positions_);
 }
 
 }  // namespace vitruvia

@@ -6,12 +6,9 @@
 // frame.
 #pragma once
 
-#include <optional>
-
 #include "fitting/fit_target.h"
-#include "fitting/surface_target.h"
 #include "geometry/front_face_zbuffer.h"
-#include "geometry/point_cloud.h"
+#include "geometry/point_sets.h"
 #include "search/kd_tree.h"
 
 namespace vitruvia {
@@ -32,8 +29,8 @@ class DepthTarget final : public FitTarget {
   double height_m() const { return double{BoundingBox(points_.points).sizes().y()}; }
   void FindPairs(const PosedBody& body, double cutoff_m, std::vector<FitPair>& pairs) override;
   MutualDistance Measure(const PosedBody& body, const NearFar& limits) override;
-  Vector3d Centroid() const override { return centroid_; }
-  Vector3d VisibleCentroid(const PosedBody& body) override;
+  Vector3d Center() const override { return centroid_; }
+  Vector3d VisibleCenter(const PosedBody& body) override;
 
  private:
   // What the frame says of a vertex that is visible on the body.

@@ -39,8 +39,8 @@ class FitTarget {
   virtual void FindPairs(const PosedBody& body, double cutoff_m, std::vector<FitPair>& pairs) = 0;
   virtual MutualDistance Measure(const PosedBody& body, const NearFar& limits) = 0;
   // The mean of the points, and of the body's vertices that they should show.
-  virtual Vector3d Centroid() const = 0;
-  virtual Vector3d VisibleCentroid(const PosedBody& body) = 0;
+  virtual Vector3d Center() const = 0;
+  virtual Vector3d VisibleCenter(const PosedBody& body) = 0;
 };
 
 }  // namespace vitruvia

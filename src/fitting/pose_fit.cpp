@@ -155,7 +155,7 @@ MutualDistance PoseFit::Measure(FitTarget& target, const BodyState& state, const
 
 BodyState PoseFit::Centered(FitTarget& target, BodyState state) {
   posed_.Set(state);
-  state.pelvis_position += target.Centroid() - target.VisibleCentroid(posed_);
+  state.pelvis_position += target.Center() - target.VisibleCenter(posed_);
   return state;
 }
 

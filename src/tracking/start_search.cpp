@@ -1,5 +1,7 @@
 #include "tracking/start_search.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 namespace vitruvia {
@@ -101,10 +103,12 @@ FoundStart StartSearch::Find(const DepthImage& depth) {
                 d.body_explained >= settings_.least_explained;
   start.message = fmt::format(
       "{}: from {}, heading {:.0f} degrees: {:.0f} % of the points and {:.0f} % of the body "
-      "explained (expected at least {:.0f} %), the second-best pose is {:.0f} % farther",
+      "explained (expected at least {:.0f} %), {}",
       start.found ? "found" : "not found", found.best.start->pose, found.best.start->heading_deg,
       100.0 * d.target_explained, 100.0 * d.body_explained, 100.0 * settings_.least_explained,
-      100.0 * start.margin);
+      std::isfinite(start.margin)
+          ? fmt::format("the second-best pose is {:.0f} % farther", 100.0 * start.margin)
+          : "no other pose came near");
   return start;
 }
 

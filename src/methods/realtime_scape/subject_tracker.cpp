@@ -52,6 +52,7 @@ std::optional<PoseHistory> SubjectTracker::FirstPose(const Observation& observat
   if (!start_search_) return Place(observation.cloud);
   const FoundStart start = start_search_->Find(*observation.depth);
   start_message_ = start.message;
+  clock_.Lap(Step::kRelocalize);
   if (!start.found) return {};
   return AtRest(ToPose(model_, start.camera_from_rest));
 }
