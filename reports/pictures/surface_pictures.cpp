@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "math/rotation.h"
 #include "reports/drawing/color_maps.h"
 
 namespace vitruvia {

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 
 #include "math/angles.h"
+#include "math/rotation.h"
 
 namespace vitruvia {
 namespace {

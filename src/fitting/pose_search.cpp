@@ -6,6 +6,7 @@
 #include "body/start_poses.h"
 #include "core/error.h"
 #include "math/angles.h"
+#include "math/rotation.h"
 
 namespace vitruvia {
 namespace {

@@ -5,6 +5,8 @@
 #include "core/error.h"
 #include "geometry/decimation.h"
 #include "math/angles.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 
 namespace vitruvia {
 namespace {

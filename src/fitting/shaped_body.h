@@ -11,6 +11,7 @@
 
 #include "body/anatomical_pose.h"
 #include "body/body_model.h"
+#include "math/rigid.h"
 
 namespace vitruvia {
 

@@ -9,6 +9,7 @@
 #include "geometry/mesh_io.h"
 #include "geometry/surface_map.h"
 #include "geometry/zbuffer.h"
+#include "math/rigid.h"
 #include "sequence/joint_visibility.h"
 #include "sequence/sequence.h"
 

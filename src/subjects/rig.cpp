@@ -14,6 +14,7 @@
 #include "geometry/surface_map.h"
 #include "learning/shape/tracking_template.h"
 #include "learning/skinning/decomposition.h"
+#include "math/rigid.h"
 #include "math/statistics.h"
 
 namespace vitruvia {

@@ -5,7 +5,9 @@
 
 #include "geometry/point_sets.h"
 #include "math/angles.h"
+#include "math/rigid.h"
 #include "math/rigid_fit.h"
+#include "math/rotation.h"
 #include "search/kd_tree.h"
 #include "tracking/visibility.h"
 

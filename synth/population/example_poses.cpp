@@ -5,6 +5,7 @@
 
 #include "body/anatomical_pose.h"
 #include "math/angles.h"
+#include "math/rigid.h"
 #include "synth/motions/motion.h"
 
 namespace vitruvia {

@@ -11,6 +11,7 @@
 #include "core/message.h"
 #include "core/progress.h"
 #include "geometry/surface_map.h"
+#include "math/rigid.h"
 #include "sequence/joint_visibility.h"
 #include "sequence/sequence.h"
 #include "synth/cloth/garment.h"

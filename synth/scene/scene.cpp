@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "math/rigid.h"
 #include "synth/scene/recording.h"
 
 namespace vitruvia {

@@ -7,6 +7,7 @@
 #include "core/files.h"
 #include "experiments/command_line.h"
 #include "geometry/mesh_io.h"
+#include "math/rigid.h"
 #include "sequence/sequence.h"
 
 namespace vitruvia {

@@ -170,7 +170,8 @@ TEST_F(Regress, BadInputIsRefusedBeforeAnythingIsMeasured) {
           "--only cannot go with it");
   MakeFolder(files_.File("base"));
   WriteWholeFile(files_.File("base/nightly.json"), "{}");
-  refused({}, ExitCode::kBadData, "nightly.json: date: key missing");
+  refused({}, ExitCode::kBadData,
+          "nightly.json: date: missing; expected: date of the last renewal");
   files_.Write("nightly.json", {{"title", "Tiny"}, {"experiment", "experiment.json"}});
   refused({}, ExitCode::kBadConfiguration,
           "nightly.json: experiment: unknown key (value \"experiment.json\"); did you mean "

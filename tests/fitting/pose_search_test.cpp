@@ -6,6 +6,7 @@
 #include "fitting/surface_target.h"
 #include "geometry/zbuffer.h"
 #include "math/angles.h"
+#include "math/rotation.h"
 #include "synth/bodies/body_source.h"
 
 namespace vitruvia {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "math/angles.h"
+#include "math/rotation.h"
 #include "synth/bodies/body_source.h"
 
 namespace vitruvia {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "math/rigid.h"
+#include "math/rotation.h"
 #include "methods/posed_tiny_body.h"
 #include "methods/realtime_scape/terms/axis_term.h"
 #include "methods/realtime_scape/terms/energy_terms.h"

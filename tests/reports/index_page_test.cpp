@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include "analysis/gate_reports.h"
+#include "config/stored_data.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "reports/figures/history_figure.h"
@@ -106,6 +108,15 @@ TEST(MakeHistoryFigures, DrawsALineForEveryRunWithGaps) {
   EXPECT_TRUE(MakeHistoryFigures({}).empty());
 }
 
+RegressionFile OkGate() {
+  RegressionFile file;
+  file.name = "Nightly";
+  file.verdict = "ok: 3 numbers";
+  file.date = "d";
+  file.commit = "ccc";
+  return file;
+}
+
 TEST(WriteIndex, FindsExperimentsAndGatesAndSurvivesDamage) {
   const TemporaryFolder root;
   WriteSyntheticExperiment(root.path());
@@ -113,13 +124,11 @@ TEST(WriteIndex, FindsExperimentsAndGatesAndSurvivesDamage) {
   WriteWholeFile(root / "damaged/experiment.json", "{");
   fs::create_directories(root / "nightly/repeat-1/clean");
   WriteWholeFile(root / "nightly/repeat-1/clean/experiment.json", "not looked at");
-  WriteWholeFile(
-      root / "nightly/regression.json",
-      R"({"name": "Nightly", "verdict": "ok: 3 numbers", "date": "d", "commit": "ccc"})");
+  WriteStored(root / "nightly/regression.json", OkGate());
   WriteHistory(root / "nightly/history.json", ThreeNights());
   const std::string page = ReadWholeFile(WriteIndex(root.path()));
   EXPECT_THAT(page, HasSubstr("1 experiments; 3 of 5 runs finished"));
-  EXPECT_THAT(page, HasSubstr("damaged/experiment.json: not JSON"));
+  EXPECT_THAT(page, HasSubstr("damaged/experiment.json: not valid JSON"));
   EXPECT_THAT(page, Not(HasSubstr("repeat-1")));
   EXPECT_THAT(page,
               HasSubstr("<b class=\"met\">ok: 3 numbers</b> on d at commit <code>ccc</code>"));

@@ -7,6 +7,8 @@
 #include "core/timer.h"
 #include "geometry/zbuffer.h"
 #include "math/angles.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 #include "synth/bodies/body_source.h"
 #include "synth/sensor/sensor.h"
 
@@ -76,8 +78,7 @@ BoneTransforms CameraFromRest(const StartTrial& trial, const BodyModel& body,
   const Eigen::Vector3d size = box.sizes().cast<double>();
   const double fits_m = 0.5 * size.z() + 1.1 * std::max(size.y() * Camera().fy / Camera().height,
                                                         size.x() * Camera().fx / Camera().width);
-  const double distance_m =
-      std::max(random.Uniform(kNearest_m, kFarthest_m), fits_m);
+  const double distance_m = std::max(random.Uniform(kNearest_m, kFarthest_m), fits_m);
   const Vector3d shift = Vector3d(0.0, 0.0, distance_m) - box.center().cast<double>();
   for (Rigidd& bone : bones) bone.translation += shift;
   return bones;
@@ -118,10 +119,14 @@ std::vector<StartPosture> StartPostures() {
   const Side2 akimbo{{-10, 45, 40, 85, 30, 0, 0, 2, 6, 0, 3, 0, 0}};
   const Side2 squat{{60, 15, 0, 30, 20, 0, 0, 70, 15, 0, 85, 12, 0}};
   const Side2 waving{{40, 95, 0, 70, 0, 0, 0, 2, 4, 0, 3, 0, 0}};
-  return {{"arms down", Posture(2, hanging, hanging)}, {"A-pose", Posture(0, a_pose, a_pose)},
-          {"T-pose", Posture(0, t_pose, t_pose)},      {"walking", Posture(4, step_left, step_right)},
-          {"sitting", Posture(5, seated, seated)},     {"forearms raised", Posture(2, raised, raised)},
-          {"left arm up", Posture(2, up, hanging)},    {"arms forward", Posture(3, forward, forward)},
+  return {{"arms down", Posture(2, hanging, hanging)},
+          {"A-pose", Posture(0, a_pose, a_pose)},
+          {"T-pose", Posture(0, t_pose, t_pose)},
+          {"walking", Posture(4, step_left, step_right)},
+          {"sitting", Posture(5, seated, seated)},
+          {"forearms raised", Posture(2, raised, raised)},
+          {"left arm up", Posture(2, up, hanging)},
+          {"arms forward", Posture(3, forward, forward)},
           {"right hand at the hip, left waving", Posture(2, waving, akimbo)},
           {"squatting", Posture(25, squat, squat)}};
 }

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "math/rigid.h"
 #include "mocap_support.h"
 
 namespace vitruvia {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "math/rotation.h"
 #include "motion_files.h"
 
 namespace vitruvia {

@@ -9,6 +9,8 @@
 #include "config/json_settings.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 #include "sequence/joint_visibility.h"
 #include "sequence/sequence.h"
 #include "support/temporary_folder.h"

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "fitting/depth_target.h"
+#include "math/rigid.h"
 
 namespace vitruvia {
 namespace {

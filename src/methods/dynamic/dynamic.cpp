@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "math/angles.h"
+#include "math/rigid.h"
 #include "methods/dynamic/energy_terms.h"
 #include "methods/dynamic/level.h"
 #include "methods/dynamic/placement.h"

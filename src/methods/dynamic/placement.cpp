@@ -5,6 +5,9 @@
 
 #include <Eigen/Cholesky>
 
+#include "math/rigid.h"
+#include "math/rotation.h"
+
 namespace vitruvia::dynamic {
 namespace {
 

@@ -1,5 +1,7 @@
 #include "methods/realtime_scape/model.h"
 
+#include "math/rigid.h"
+
 namespace vitruvia::realtime_scape {
 
 Model::Model(const BodyModel& subject)

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "body/body_model.h"
+#include "math/rigid.h"
 #include "methods/realtime_scape/body_pose.h"
 
 namespace vitruvia::realtime_scape {

@@ -1,6 +1,7 @@
 #include "methods/realtime_scape/subject_tracker.h"
 
 #include "core/error.h"
+#include "math/rigid.h"
 #include "tracking/placement.h"
 
 namespace vitruvia::realtime_scape {
