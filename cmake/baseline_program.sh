@@ -24,8 +24,9 @@ source=$root/build-baseline/$commit
 program=$source/build/vitruvia
 if [ ! -x "$program" ]; then
   echo "building the baseline's program, commit $commit, once" >&2
-  mkdir -p "$source"
-  git -C "$root" archive "$commit" | tar -x -C "$source"
+  rm -rf "$source"
+  git clone --quiet --shared --no-checkout "$root" "$source"
+  git -C "$source" checkout --quiet "$commit"
   {
     cmake -S "$source" -B "$source/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DVITRUVIA_UNITY=ON &&
       cmake --build "$source/build" --target vitruvia
