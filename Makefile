@@ -40,8 +40,9 @@ test: packages build/build.ninja  ## build everything and run all tests; VITRUVI
 	@cmake --build build --parallel $(JOBS)
 	ctest --test-dir build -j$(TEST_JOBS) --output-on-failure
 
-nightly: packages build  ## regression gate: accuracy and speed against reports/baseline; reports in out/nightly
-	build/vitruvia regress $(NIGHTLY) --baseline $(BASELINE)
+nightly: packages build  ## regression gate: accuracy against reports/baseline, speed in turn with its program
+	program=$$(cmake/baseline_program.sh $(BASELINE)/nightly.json); \
+	build/vitruvia regress $(NIGHTLY) --baseline $(BASELINE) $${program:+--baseline-program $$program}
 
 # make baseline REASON="why it may change"
 baseline: packages build  ## measure anew and renew reports/baseline; wants REASON="..."

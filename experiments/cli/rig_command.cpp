@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/message.h"
 #include "experiments/cli/known_person.h"
 #include "geometry/mesh_io.h"
 #include "importers/frame_files.h"
