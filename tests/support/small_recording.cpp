@@ -1,6 +1,7 @@
 #include "support/small_recording.h"
 
 #include "geometry/zbuffer.h"
+#include "math/rigid.h"
 #include "sequence/joint_visibility.h"
 
 namespace vitruvia {
