@@ -11,8 +11,10 @@
 #include "experiments/run/run_state.h"
 #include "geometry/mask_png.h"
 #include "geometry/mesh_io.h"
+#include "importers/depth_recording.h"
 #include "importers/eval_import.h"
 #include "importers/mesh_import.h"
+#include "importers/pcd_file.h"
 #include "learning/shape/shape_space.h"
 #include "methods/dynamic/skeleton_file.h"
 #include "records/estimate.h"
@@ -346,6 +348,57 @@ MutatedFormat ImportedEval() {
           }};
 }
 
+// ---- recordings of depth cameras
+
+// In a cloud NaN and infinity say that nothing was measured.
+Mutant MutateCloud(const std::string& /*file*/, const std::string& content, RandomStream& random) {
+  Mutant mutant = MutateText(content, random);
+  if (mutant.what.find(kNoNumber) != std::string::npos) mutant.change = Change::kStatement;
+  return mutant;
+}
+
+MutatedFormat TextPcd() {
+  return {"pcd",
+          [](const fs::path& folder) {
+            std::string text =
+                "# .PCD v0.7\nVERSION 0.7\nFIELDS x rgb y z\nSIZE 4 1 4 4\nTYPE F U F F\n"
+                "COUNT 1 3 1 1\nWIDTH 4\nHEIGHT 3\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 12\n"
+                "DATA ascii\n";
+            for (int i = 0; i < 12; ++i)
+              text += fmt::format("{} 1 2 3 {} {}\n", 0.1 * i, -0.2 * i, 2.0 + 0.01 * i);
+            WriteWholeFile(folder / "cloud.pcd", text);
+          },
+          {"cloud.pcd"},
+          MutateCloud,
+          [](const fs::path& folder) -> Reading {
+            const OrganisedCloud cloud = ReadOrganisedPcd(folder / "cloud.pcd");
+            Hash64 hash;
+            AddTo(hash, cloud.width);
+            AddTo(hash, cloud.points);
+            return {hash.Hex(), {}};
+          }};
+}
+
+MutatedFormat ListOfDepthFiles() {
+  return {"depth_list",
+          [](const fs::path& folder) {
+            std::string text = "# seconds file\n";
+            for (int i = 0; i < 8; ++i) {
+              WriteWholeFile(folder / fmt::format("{}.png", i), "x");
+              text += fmt::format("{:.6f} {}.png\n", 12.0 + i / 30.0, i);
+            }
+            WriteWholeFile(folder / "depth.txt", text);
+          },
+          {"depth.txt"},
+          MutateAsText,
+          [](const fs::path& folder) -> Reading {
+            const DepthRecording recording = FindRecordedFrames(folder / "depth.txt");
+            std::string meaning = fmt::format("{:.6g}", recording.fps);
+            for (const fs::path& frame : recording.frames) meaning += " " + frame.string();
+            return {meaning, recording.gaps};
+          }};
+}
+
 // ---- stored data
 
 MutatedFormat Estimate() {
@@ -512,6 +565,8 @@ std::vector<MutatedFormat> MutatedFormats() {
           Off(),
           ImportedMeshes(),
           ImportedEval(),
+          TextPcd(),
+          ListOfDepthFiles(),
           Sequence(),
           Estimate(),
           Records(),

@@ -126,7 +126,7 @@ Mutant WithWord(const std::string& content, RandomStream& random) {
       return mutant(word + " " + word, Change::kDamage, "doubled");
     case 4: {
       static const std::vector<std::string> kNone = {"nan", "inf", "-inf", "1e999", "-1.#IND", "?"};
-      return mutant(kNone[random.Index(kNone.size())], Change::kDamage, "that is no number");
+      return mutant(kNone[random.Index(kNone.size())], Change::kDamage, kNoNumber);
     }
     default:
       return mutant(OtherNumber(word, random), Change::kStatement, "as another number");

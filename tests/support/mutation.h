@@ -21,6 +21,9 @@ struct Mutant {
   std::string what;  // for messages: "line 12 doubled"
 };
 
+// Part of `what` where a number is replaced by what is none, such as nan.
+inline constexpr const char* kNoNumber = "that is no number";
+
 // Text of words and lines: junk in a word, words and lines lost or doubled, numbers that are none,
 // the file cut (damage); another digit, sign or size of a number (statement); layout. Lines are not
 // exchanged: a format with many lines of one kind holds another statement then. Damage never makes
