@@ -29,7 +29,7 @@ std::string DepthPngProblem(const DepthImage& depth, double unit_m) {
   long measured = 0, outside = 0;
   float least_m = std::numeric_limits<float>::infinity(), most_m = 0.0f;
   for (const float z : depth.pixels()) {
-    if (!(z > 0.0f)) continue;
+    if (!(z > 0.0f) || !std::isfinite(z)) continue;
     ++measured;
     const double units = std::round(z / unit_m);
     if (units >= 1.0 && units <= kLargest) continue;
@@ -57,7 +57,7 @@ void WriteDepthPng(const std::filesystem::path& file, const DepthImage& depth, d
     auto* row = raw.ptr<std::uint16_t>(v);
     for (int u = 0; u < depth.width(); ++u) {
       const double units = std::round(depth(u, v) / unit_m);
-      row[u] = units > 0.0 ? static_cast<std::uint16_t>(units) : 0;
+      row[u] = units > 0.0 && std::isfinite(units) ? static_cast<std::uint16_t>(units) : 0;
     }
   }
   WriteGreyPng(file, raw);

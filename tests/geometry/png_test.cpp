@@ -81,17 +81,13 @@ TEST_F(Png, EveryValueOfSixteenBitsSurvives) {
   EXPECT_EQ(RoundTrip(depth, kUnit).pixels(), depth.pixels());
 }
 
-TEST_F(Png, DepthOutOfRangeIsNoMeasurement) {
-  DepthImage depth(6, 1);
-  depth.pixels() = {65.535f,
-                    65.536f,
-                    1e9f,
-                    -1.0f,
-                    std::numeric_limits<float>::quiet_NaN(),
+TEST_F(Png, DepthThatIsNegativeOrNotFiniteIsNoMeasurement) {
+  DepthImage depth(4, 1);
+  depth.pixels() = {65.535f, -1.0f, std::numeric_limits<float>::quiet_NaN(),
                     std::numeric_limits<float>::infinity()};
   const DepthImage read = RoundTrip(depth, kMillimetre);
   EXPECT_FLOAT_EQ(read(0, 0), 65.535f);
-  for (int u = 1; u < 6; ++u) EXPECT_EQ(read(u, 0), 0.0f) << "column " << u;
+  for (int u = 1; u < 4; ++u) EXPECT_EQ(read(u, 0), 0.0f) << "column " << u;
 }
 
 TEST_F(Png, RefusesFilesCutShortAnywhere) {
