@@ -1,8 +1,5 @@
 #include "methods/realtime_scape/subject_tracker.h"
 
-#include <cstdio>
-#include <cstdlib>
-
 #include "core/error.h"
 #include "tracking/placement.h"
 
@@ -37,9 +34,6 @@ TrackResult SubjectTracker::TrackFrame(const DepthFrame& frame) {
       fitter_.Fit(observation, *history_, prediction,
                   is_first ? stopping.first_frame_iterations : stopping.max_iterations);
   clock_.Skip();
-  if (getenv("TERMS_DEBUG"))
-    fprintf(stderr, "DBG %d %.4f %.4f %.4f\n", frame.index, fit.agreement.explained,
-            fit.agreement.confirmed, fit.agreement.visible_fraction_evaluated);
   fit = TakeFoundLimb(observation, std::move(fit));
   fit = TakeBetterPose(observation, std::move(fit), is_first);
   history_ = Advanced(*history_, model_, fit.pose, fit.counts, settings_.search.seen_share);
