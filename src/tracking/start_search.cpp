@@ -111,4 +111,8 @@ FoundStart StartSearch::Find(const DepthImage& depth) {
   return start;
 }
 
+std::string WithStart(const std::string& start, const std::string& ending) {
+  return ending.empty() ? start : start + "; " + ending;
+}
+
 }  // namespace vitruvia

@@ -8,14 +8,6 @@ namespace vitruvia::realtime_scape {
 
 using Step = RealtimeScapeStep;
 
-namespace {
-
-std::string Joined(const std::string& first, const std::string& second) {
-  return second.empty() ? first : first + "; " + second;
-}
-
-}  // namespace
-
 SubjectTracker::SubjectTracker(const Subject& subject, const PinholeCamera& camera,
                                const Settings& settings)
     : camera_(camera),
@@ -53,7 +45,7 @@ TrackResult SubjectTracker::TrackFrame(const DepthFrame& frame) {
   history_ = Advanced(*history_, model_, fit.pose, fit.counts, settings_.search.seen_share);
   fit.times += clock_.times();
   Ending ending = EndingOf(fit);
-  if (is_first && start_search_) ending.message = Joined(start_message_, ending.message);
+  if (is_first && start_search_) ending.message = WithStart(start_message_, ending.message);
   return Result(std::move(fit), std::move(ending));
 }
 
