@@ -5,6 +5,7 @@
 
 #include "geometry/surface_map.h"
 #include "math/angles.h"
+#include "math/rigid.h"
 
 namespace vitruvia {
 namespace {

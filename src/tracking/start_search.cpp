@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "math/rigid.h"
+
 namespace vitruvia {
 namespace {
 

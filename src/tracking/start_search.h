@@ -7,6 +7,7 @@
 #include "config/settings.h"
 #include "fitting/depth_target.h"
 #include "fitting/pose_search.h"
+#include "math/rigid.h"
 #include "tracking/tracker.h"
 
 namespace vitruvia {

@@ -5,6 +5,7 @@
 
 #include "geometry/zbuffer.h"
 #include "math/angles.h"
+#include "math/rigid.h"
 #include "math/rotation.h"
 #include "synth/population/make_database.h"
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "geometry/mesh.h"
+#include "math/rigid.h"
 #include "math/vector.h"
 #include "methods/dynamic/kinematic_tree.h"
 
