@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "math/angles.h"
+#include "math/rigid.h"
 #include "synth/motions/keyframes_pose.h"
 #include "synth/motions/motion.h"
 
