@@ -13,6 +13,7 @@
 #include "importers/mesh_import.h"
 #include "records/estimate.h"
 #include "subjects/fitted_subject.h"
+#include "subjects/rig.h"
 #include "subjects/scan.h"
 #include "synth/motions/keyframes_file.h"
 
@@ -43,6 +44,7 @@ const std::vector<ConfigKind>& ConfigKinds() {
         {"learning", "what is learnt from a population", VisitDefaults<LearningSettings>, nullptr},
         {"fit", "how a shape is fitted to a scan", VisitDefaults<IntrinsicShapeSettings>, nullptr},
         {"subject", "a subject that is scanned and fitted", VisitSubjectFile, nullptr},
+        {"rig", "how meshes are made a subject", VisitDefaults<RigSettings>, nullptr},
         {"skeleton", "a kinematic skeleton", VisitSkeletonFile, nullptr},
         {"import_meshes", "mesh files made into a sequence", VisitDefaults<MeshSequenceSettings>,
          nullptr},

@@ -43,8 +43,6 @@ void ImportEval(const ImportArguments& a) {
              ListedOrNone(imported.unmatched.only_in_sequence));
   fmt::print("joints of the skeleton that the files have not: {}\n",
              ListedOrNone(imported.unmatched.only_in_skeleton));
-  if (imported.jumps > 0)
-    fmt::print("{} frames do not have the number after their predecessor's\n", imported.jumps);
   if (settings.subject.empty())
     fmt::print("the sequence has no subject: name one where it is tracked\n");
 }

@@ -12,6 +12,7 @@
 #include "core/worker_team.h"
 #include "cutout/packed_labels.h"
 #include "cutout/sheet.h"
+#include "importers/checked_sequence.h"
 #include "importers/depth_frames.h"
 #include "importers/depth_recording.h"
 #include "math/statistics.h"
@@ -344,7 +345,7 @@ DepthImport ImportDepthSequence(const DepthImportSettings& s, int threads, const
   result.cut = ReportCutout(found.people, result.chosen, shares, s.cutout.following);
   writer.WritePreview(Sheet(reader, frames.files, found, result.chosen, result.cut));
   writer.Note("cutout", NoteOf(result));
-  writer.Finish();
+  PublishChecked(writer, folder, {});
   return result;
 }
 

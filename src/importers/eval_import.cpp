@@ -11,6 +11,7 @@
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/progress.h"
+#include "importers/checked_sequence.h"
 #include "importers/eval_file.h"
 #include "importers/pixel_fit.h"
 #include "sequence/joint_visibility.h"
@@ -203,6 +204,14 @@ SequenceInfo InfoOf(const EvalImport& imported, const std::vector<fs::path>& fil
   return info;
 }
 
+std::string JumpWarning(int jumps, int frames, const std::string& where) {
+  if (jumps == 0) return "";
+  return fmt::format(
+      "{}: {} of {} frames do not have the number after their predecessor's: frames on both sides "
+      "are taken as neighbours in time",
+      where, jumps, frames);
+}
+
 }  // namespace
 
 void EvalJointName::Describe(Fields& f) {
@@ -281,7 +290,7 @@ EvalImport ImportEvalSequence(const std::vector<fs::path>& files,
       progress.Advance();
     }
   }
-  writer.Finish();
+  PublishChecked(writer, folder, {JumpWarning(result.jumps, survey.frames, where)});
   return result;
 }
 

@@ -12,28 +12,19 @@
 #include "geometry/mesh_io.h"
 #include "geometry/surface_map.h"
 #include "geometry/zbuffer.h"
+#include "importers/checked_sequence.h"
+#include "importers/frame_files.h"
 #include "math/rigid.h"
 #include "sequence/joint_visibility.h"
 #include "sequence/sequence.h"
+#include "sequence/view_watch.h"
+#include "verification/verification.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr float kNearestToCamera_m = 0.1f;
-
-std::vector<fs::path> FrameFiles(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (IsMeshFile(entry.path())) files.push_back(entry.path());
-  }
-  if (files.empty())
-    throw DataError(fmt::format("{}: expected a folder of .obj, .ply or .off files, found none",
-                                folder.string()));
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 TriangleMesh ReadScaled(const fs::path& file, double unit_m) {
   TriangleMesh mesh = ReadMesh(file);
@@ -151,44 +142,50 @@ DepthImage Measured(const DepthImage& depth, const MeshSequenceSettings& setting
 }
 
 // Meshes that correspond to the subject's template.
-void ImportCorrespondingMeshes(const MeshSequenceSettings& settings,
-                               const std::vector<fs::path>& files, const fs::path& folder) {
+void ImportCorrespondingMeshes(const MeshSequenceSettings& settings, const FrameFiles& files,
+                               const fs::path& folder) {
   const BodyModel subject = ReadBodyModel(settings.subject);
   const TriangleMesh rest = ReadScaled(settings.rest, settings.unit_m);
+  RequireRestMeshOf(subject, settings.subject, rest, settings.rest);
   const PinholeCamera& camera = settings.view.camera;
   const JointFinder joints(subject, rest);
   ZBuffer zbuffer(camera);
-  const auto count = static_cast<int>(files.size());
+  const auto count = static_cast<int>(files.files.size());
   SequenceWriter writer(folder, InfoOf(settings, count), subject, rest);
+  ViewWatch watch(camera);
   Progress progress("import " + folder.filename().string(), count);
   for (int i = 0; i < count; ++i) {
-    const TriangleMesh mesh = ReadFrame(files[i], settings);
-    RequireSameMesh(files[i], mesh, rest);
+    const fs::path& file = files.files[static_cast<std::size_t>(i)];
+    const TriangleMesh mesh = ReadFrame(file, settings);
+    RequireSameMesh(file, mesh, rest);
+    watch.Look(mesh.vertices, i);
     const DepthImage& depth = zbuffer.Render(mesh.vertices, mesh.triangles);
     const std::vector<Vector3d> found = joints.Find(mesh.vertices);
     writer.Append(Measured(depth, settings, i), mesh.vertices,
                   {found, VisibleJoints(found, depth, camera)});
     progress.Advance();
   }
-  writer.Finish();
+  PublishChecked(writer, folder, {files.warning, watch.Warning(count)});
 }
 
 // Meshes that correspond to nothing, each of its own triangles.
-void ImportOwnSurfaces(const MeshSequenceSettings& settings, const std::vector<fs::path>& files,
+void ImportOwnSurfaces(const MeshSequenceSettings& settings, const FrameFiles& files,
                        const fs::path& folder) {
   std::optional<BodyModel> subject;
   if (!settings.subject.empty()) subject = ReadBodyModel(settings.subject);
   ZBuffer zbuffer(settings.view.camera);
-  const auto count = static_cast<int>(files.size());
+  const auto count = static_cast<int>(files.files.size());
   SequenceWriter writer(folder, InfoOf(settings, count), subject);
+  ViewWatch watch(settings.view.camera);
   Progress progress("import " + folder.filename().string(), count);
   for (int i = 0; i < count; ++i) {
-    const TriangleMesh mesh = ReadFrame(files[i], settings);
+    const TriangleMesh mesh = ReadFrame(files.files[static_cast<std::size_t>(i)], settings);
+    watch.Look(mesh.vertices, i);
     const DepthImage& depth = zbuffer.Render(mesh.vertices, mesh.triangles);
     writer.Append(Measured(depth, settings, i), mesh, JointTruth());
     progress.Advance();
   }
-  writer.Finish();
+  PublishChecked(writer, folder, {files.warning, watch.Warning(count)});
 }
 
 }  // namespace
@@ -196,8 +193,9 @@ void ImportOwnSurfaces(const MeshSequenceSettings& settings, const std::vector<f
 void MeshSequenceSettings::Describe(Fields& f) {
   f.Text("title", title, {.meaning = "what the sequence shows"});
   f.File("meshes", meshes,
-         {.meaning = "folder of .obj, .ply or .off files, one for each frame in the order of their "
-                     "names",
+         {.meaning = "folder of .obj, .ply or .off files, one for each frame in the order of the "
+                     "numbers in their names, which may differ in nothing else; `rest` is none of "
+                     "them",
           .required = true});
   f.File("subject", subject,
          {.meaning = "folder of the subject: mesh.ply, subject.json, weights.bin (FORMAT.md); "
@@ -227,7 +225,8 @@ std::string MeshSequenceSettings::Problem() const {
 }
 
 void ImportMeshSequence(const MeshSequenceSettings& settings, const fs::path& folder) {
-  const std::vector<fs::path> files = FrameFiles(settings.meshes);
+  const FrameFiles files =
+      FindFrameFiles(settings.meshes, IsMeshFile, {settings.rest}, ".obj, .ply or .off files");
   if (settings.rest.empty()) {
     ImportOwnSurfaces(settings, files, folder);
   } else {

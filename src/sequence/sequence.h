@@ -118,7 +118,7 @@ class SequenceReader {
   std::vector<JointTruth> true_joints_;
 };
 
-// Writes a sequence whole or not at all: everything goes to a temporary folder that Finish() moves
+// Writes a sequence whole or not at all: everything goes to a temporary folder that Publish() moves
 // into place.
 class SequenceWriter {
  public:
@@ -129,7 +129,8 @@ class SequenceWriter {
                  const std::optional<BodyModel>& subject);
   ~SequenceWriter();
 
-  // Sizes must be those of the camera, the mesh and info.joints; values must be finite.
+  // Sizes must be those of the camera, the mesh and info.joints; values must be finite. DataError
+  // with counts if depth does not fit 16 bits of info.depth_unit_m.
   void Append(const DepthImage& depth, const std::vector<Vector3f>& true_vertices,
               const JointTruth& joints);
   void Append(const DepthImage& depth, const JointTruth& joints);
@@ -148,7 +149,11 @@ class SequenceWriter {
   void WritePreview(std::string_view png) const;
   // Adds what only came to light on the way to the provenance.
   void Note(const std::string& key, nlohmann::json value);
-  void Finish();  // throws std::logic_error unless exactly info.frames frames were appended
+  // Writes what remains after the last frame. Returns the temporary folder, where the sequence can
+  // be read and checked. std::logic_error unless exactly info.frames frames were appended.
+  std::filesystem::path Complete();
+  void Publish();  // after Complete(); things may be noted in between
+  void Finish();   // both
 
  private:
   struct State;

@@ -9,6 +9,7 @@
 #include "body/skeleton.h"
 #include "config/stored_data.h"
 #include "core/error.h"
+#include "math/rigid.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;

@@ -15,6 +15,7 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 
 struct SequenceWriter::State {
+  fs::path folder;  // where the sequence will be
   StagedFolder staged;
   SequenceFiles files;
   SequenceInfo info;
@@ -22,14 +23,19 @@ struct SequenceWriter::State {
   std::ofstream vertices;
   std::vector<JointTruth> joints;  // one for each frame appended
 
-  State(fs::path folder, SequenceInfo info_in, std::size_t vertex_count_in)
-      : staged(std::move(folder), "sequence.json"),
+  State(fs::path folder_in, SequenceInfo info_in, std::size_t vertex_count_in)
+      : folder(std::move(folder_in)),
+        staged(folder, "sequence.json"),
         files{staged.path()},
         info(std::move(info_in)),
         vertex_count(vertex_count_in) {}
 
   void RequireWritten() const {
     if (!vertices) FailToWrite(files.Vertices(), errno);
+  }
+
+  void WriteHeader() const {
+    WriteWholeFile(files.Header(), SequenceInfoJson(info).dump(2) + "\n");
   }
 
   void WriteSubject(const BodyModel& subject) const {
@@ -44,6 +50,10 @@ struct SequenceWriter::State {
     Require(depth.width() == info.camera.width && depth.height() == info.camera.height,
             "SequenceWriter::Append: depth of {}×{} pixels, expected {}×{}", depth.width(),
             depth.height(), info.camera.width, info.camera.height);
+    const std::string misfit = DepthPngProblem(depth, info.depth_unit_m);
+    if (!misfit.empty())
+      throw DataError(fmt::format("{}: depth of frame {}: {}, or its unit is not the one stated",
+                                  folder.string(), frame, misfit));
     WriteDepthPng(files.Depth(frame), depth, info.depth_unit_m);
   }
 
@@ -170,10 +180,10 @@ void SequenceWriter::Note(const std::string& key, Json value) {
   state_->info.provenance[key] = std::move(value);
 }
 
-void SequenceWriter::Finish() {
+fs::path SequenceWriter::Complete() {
   State& s = *state_;
   if (s.frames() != s.info.frames) {
-    throw std::logic_error(fmt::format("SequenceWriter::Finish: {} of {} frames were appended",
+    throw std::logic_error(fmt::format("SequenceWriter::Complete: {} of {} frames were appended",
                                        s.frames(), s.info.frames));
   }
   if (s.info.surface) {
@@ -182,8 +192,18 @@ void SequenceWriter::Finish() {
   }
   if (!s.info.joints.empty())
     WriteWholeFile(s.files.Joints(), JointTruthJson(s.info.joints, s.joints).dump() + "\n");
-  WriteWholeFile(s.files.Header(), SequenceInfoJson(s.info).dump(2) + "\n");
-  s.staged.Commit();
+  s.WriteHeader();
+  return s.staged.path();
+}
+
+void SequenceWriter::Finish() {
+  Complete();
+  Publish();
+}
+
+void SequenceWriter::Publish() {
+  state_->WriteHeader();  // with what was noted since Complete()
+  state_->staged.Commit();
 }
 
 }  // namespace vitruvia

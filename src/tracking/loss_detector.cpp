@@ -7,29 +7,37 @@ namespace vitruvia {
 // Low: too little of the model is confirmed, or much of the cloud is unexplained and the model is
 // not fully confirmed either. An object before the body leaves much unexplained, too, but what is
 // visible of the model is then confirmed.
-bool LossDetector::IsLow(const Agreement& agreement) const {
+bool LossDetector::IsBelow(double threshold, const Agreement& agreement) const {
   constexpr double kFullyConfirmed = 0.97;  // share of the usual level
-  const double threshold = settings_.agreement_threshold;
   return agreement.presence() < threshold * usual_.presence() ||
          (agreement.score() < threshold * usual_.score() &&
           agreement.confirmed < kFullyConfirmed * usual_.confirmed);
 }
 
+void LossDetector::SetUsual(const Agreement& agreement) {
+  usual_.explained = std::max(agreement.explained, settings_.least_usual);
+  usual_.confirmed = std::max(agreement.confirmed, settings_.least_usual);
+  usual_.visible_fraction_evaluated = agreement.visible_fraction_evaluated;
+}
+
 FrameVerdict LossDetector::Assess(const Agreement& agreement) {
   constexpr double kFollow = 0.05;  // share of a new agreement in the usual level
-  const bool is_low = IsLow(agreement);
+  const bool is_low = IsBelow(settings_.agreement_threshold, agreement);
+  is_doubtful_ = !is_first_ && IsBelow(settings_.doubt_threshold, agreement);
   if (is_first_) {
     is_first_ = false;
-    usual_ = agreement;
+    SetUsual(agreement);
     if (!is_low) return FrameVerdict::kAgrees;
     // No better frame is to be expected, so patience does not help.
     return settings_.patience > 0 ? FrameVerdict::kSearch : FrameVerdict::kDisagrees;
   }
   if (!is_low) {
-    const auto follow = [](double& usual, double now) { usual += kFollow * (now - usual); };
-    follow(usual_.explained, agreement.explained);
-    follow(usual_.confirmed, agreement.confirmed);
-    follow(usual_.visible_fraction_evaluated, agreement.visible_fraction_evaluated);
+    Agreement usual = usual_;
+    const auto follow = [](double& level, double now) { level += kFollow * (now - level); };
+    follow(usual.explained, agreement.explained);
+    follow(usual.confirmed, agreement.confirmed);
+    follow(usual.visible_fraction_evaluated, agreement.visible_fraction_evaluated);
+    SetUsual(usual);
     num_low_ = 0;
     return FrameVerdict::kAgrees;
   }
@@ -44,7 +52,8 @@ FrameVerdict LossDetector::Assess(const Agreement& agreement) {
 
 void LossDetector::NoteFound(const Agreement& agreement) {
   num_low_ = 0;
-  if (agreement.score() > usual_.score()) usual_ = agreement;
+  is_doubtful_ = IsBelow(settings_.doubt_threshold, agreement);
+  if (agreement.score() > usual_.score()) SetUsual(agreement);
 }
 
 bool IsClearlyBetter(const Agreement& found, const Agreement& current, double margin) {

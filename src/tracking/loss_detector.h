@@ -25,15 +25,17 @@ class LossDetector {
   // A search found a pose with this agreement, and its pose was taken.
   void NoteFound(const Agreement& agreement);
 
-  bool is_lost() const { return num_low_ > 0; }
+  bool is_lost() const { return num_low_ > 0 || is_doubtful_; }
   const Agreement& usual() const { return usual_; }
 
  private:
-  bool IsLow(const Agreement& agreement) const;
+  bool IsBelow(double threshold, const Agreement& agreement) const;
+  void SetUsual(const Agreement& agreement);
 
   RelocalizationSettings settings_;
   Agreement usual_{1.0, 1.0, 1.0};
   bool is_first_ = true;
+  bool is_doubtful_ = false;
   int num_low_ = 0;              // consecutive frames
   int frames_until_search_ = 0;  // at the earliest
 };

@@ -19,7 +19,31 @@ void RelocalizationSettings::Describe(Fields& f) {
             .max = 1,
             .origin = Origin::kGuessed,
             .source = kSource});
+  f.Number("doubt_threshold", doubt_threshold,
+           {.meaning = "a frame whose agreement is below this share of its usual level is reported "
+                       "as lost, though other poses are not searched yet",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kGuessed,
+            .source = kSource});
+  f.Number("least_usual", least_usual,
+           {.meaning = "the usual agreement of model and frame never counts as lower than this, so "
+                       "that what the first frame shows is not taken for the subject unseen",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kGuessed,
+            .source = kSource});
   if (!f.Applies(patience > 0)) return;
+  f.Number(
+      "part_gap_m", part_gap_m,
+      {.meaning = "the cloud is split into parts where depth jumps by more than this, and a "
+                  "search tries poses at each part's centre, too; 0: at that of the whole cloud "
+                  "alone",
+       .unit = "m",
+       .min = 0,
+       .max = 10,
+       .origin = Origin::kGuessed,
+       .source = kSource});
   f.Integer("pause", pause,
             {.meaning = "number of frames between two searches for a lost subject",
              .unit = "frames",

@@ -15,6 +15,7 @@
 #include "math/rigid.h"
 #include "sequence/joint_visibility.h"
 #include "sequence/sequence.h"
+#include "sequence/view_watch.h"
 #include "synth/cloth/garment.h"
 #include "synth/render/depth_renderer.h"
 
@@ -22,31 +23,6 @@ namespace vitruvia {
 namespace {
 
 constexpr double kNearM = 0.2, kFarM = 12.0;  // of the renderer; the body must stay between them
-
-// Counts the frames in which some of the body is out of view.
-class ViewWatch {
- public:
-  explicit ViewWatch(const PinholeCamera& camera) : camera_(camera) {}
-
-  void Look(const std::vector<Vector3f>& vertices_in_camera, int frame) {
-    const bool all_in_view = std::all_of(vertices_in_camera.begin(), vertices_in_camera.end(),
-                                         [this](const auto& p) { return camera_.InView(p); });
-    if (all_in_view) return;
-    if (frames_ == 0) first_ = frame;
-    ++frames_;
-  }
-
-  // "" if the body never left.
-  std::string Warning(int frame_count) const {
-    if (frames_ == 0) return "";
-    return fmt::format("the body leaves the image in {} of {} frames, first in frame {}", frames_,
-                       frame_count, first_);
-  }
-
- private:
-  PinholeCamera camera_;
-  int frames_ = 0, first_ = 0;
-};
 
 // How far the template, moved by the true bones, is from the truth: what remains for a tracker that
 // finds the true pose.

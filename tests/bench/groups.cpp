@@ -8,6 +8,7 @@ std::vector<Row> FitShape();
 std::vector<Row> ImportDepth();
 std::vector<Row> LearnWeights();
 std::vector<Row> Scan();
+std::vector<Row> Starts();
 
 std::span<const Group> Groups() {
   static constexpr std::array kGroups = {
@@ -15,6 +16,7 @@ std::span<const Group> Groups() {
       Group{"import_depth", ImportDepth},
       Group{"learn_weights", LearnWeights},
       Group{"scan", Scan},
+      Group{"starts", Starts},
   };
   return kGroups;
 }

@@ -4,14 +4,21 @@
 
 #include <gtest/gtest.h>
 
+#include "body/bone_limits.h"
+#include "body/pose_statistics.h"
+#include "math/angles.h"
 #include "math/rigid.h"
 #include "math/rotation.h"
 #include "methods/posed_tiny_body.h"
 #include "methods/realtime_scape/terms/axis_term.h"
 #include "methods/realtime_scape/terms/energy_terms.h"
 #include "methods/realtime_scape/terms/fit_term.h"
+#include "methods/realtime_scape/terms/free_space_term.h"
 #include "methods/realtime_scape/terms/inertia_term.h"
 #include "methods/realtime_scape/terms/joint_term.h"
+#include "methods/realtime_scape/terms/limit_term.h"
+#include "methods/realtime_scape/terms/local_rotation_row.h"
+#include "methods/realtime_scape/terms/prior_term.h"
 
 namespace vitruvia::realtime_scape {
 namespace {
@@ -74,6 +81,31 @@ class Terms : public testing::Test, protected PosedTinyBody {
       AddAxisTerm(pose, 1.0, equations);
     };
   }
+  static Term Limit(double slack_rad) {
+    return [slack_rad](const BodyPose& pose, BlockNormalEquations& equations) {
+      AddLimitTerm(pose, slack_rad, 20.0, equations);
+    };
+  }
+  static Term Prior() {
+    return [](const BodyPose& pose, BlockNormalEquations& equations) {
+      AddPriorTerm(pose, 0.1, equations);
+    };
+  }
+  // Vertices drawn to where those pairs say.
+  Term Free(const FitData& data) const {
+    FitSettings settings;
+    settings.kernel = RobustKernel::kNone;
+    return [this, data, settings](const BodyPose& pose, BlockNormalEquations& equations) {
+      AddFreeSpaceTerm(model, pose, {data.pairs}, settings, 0.5, kUnit_m, equations);
+    };
+  }
+  // One bone turned against the rest pose, with all that hangs from it left behind.
+  BodyPose Turned(BoneId bone_id, const Vector3d& angles_deg) const {
+    BodyPose pose = rest;
+    const int bone = static_cast<int>(bone_id);
+    pose[bone].rotation = rest[bone].rotation * ExpSo3<double>(kRadiansPerDegree * angles_deg);
+    return pose;
+  }
   Term Fit(const FitData& data, SurfaceResidual surface, PairResidual pair,
            RobustKernel kernel = RobustKernel::kNone) const {
     const FitSettings settings{
@@ -98,6 +130,8 @@ TEST_F(Terms, GradientsOfWhatRegularizesMatchDifferences) {
   std::vector<Term> terms = JointTerms();
   terms.push_back(Inertia(previous));
   terms.push_back(Axis());
+  terms.push_back(Prior());
+  terms.push_back(Limit(0.0));
   for (const Term& term : terms) {
     for (const BodyPose& pose : {rest, near_rest, bent, Articulated()})
       ExpectGradientMatchesDifferences(term, pose);
@@ -108,6 +142,7 @@ TEST_F(Terms, GradientsOfTheFitMatchDifferences) {
   for (const BodyPose& pose : {rest, near_rest, bent, Articulated()}) {
     ExpectGradientMatchesDifferences(FitPoints(Pairs(pose, 7, 0.02)), pose);
     ExpectGradientMatchesDifferences(FitPoints(Depths(pose, 5, 0.02)), pose);
+    ExpectGradientMatchesDifferences(Free(Pairs(pose, 7, 0.02)), pose);
   }
 }
 
@@ -130,6 +165,101 @@ TEST(RobustWeight, LeavesAllToSmallResidualsAndLessToLargeOnes) {
   EXPECT_EQ(RobustWeight(RobustKernel::kTukey, 0.0, 0.01), 1.0);
   EXPECT_DOUBLE_EQ(RobustWeight(RobustKernel::kTukey, 0.005, 0.01), 0.5625);
   EXPECT_EQ(RobustWeight(RobustKernel::kTukey, 0.02, 0.01), 0.0);
+}
+
+TEST(InverseRightJacobian, LinearizesTheLogarithmUpToATurnAndAHalf) {
+  const Vector3d axis = Vector3d(0.3, -0.5, 0.8).normalized(), step(0.2e-6, -0.3e-6, 0.1e-6);
+  for (const double angle : {0.0, 1e-5, 0.5, 2.0, 3.1, 3.2, 4.5}) {
+    const Vector3d before = angle * axis;
+    Vector3d after = LogSo3<double>(ExpSo3<double>(before) * ExpSo3<double>(step));
+    if (angle > 3.15) after = OtherWayRound(after);
+    EXPECT_LT((before + InverseRightJacobian(before) * step - after).norm(), 1e-10) << angle;
+  }
+}
+
+TEST_F(Terms, LimitsAreFreeWithinTheRangeAndCostTheSquaredExcessBeyondIt) {
+  struct Case {
+    BoneId bone;
+    Vector3d angles_deg;
+    double excess_deg;
+  };
+  using enum BoneId;
+  for (const Case& turn :
+       {Case{kChest, {30, 20, -15}, 0}, Case{kChest, {50, 0, 0}, 10},
+        Case{kChest, {0, -30, 0}, 7.5}, Case{kLeftForearm, {0, -140, 0}, 0},
+        Case{kLeftForearm, {0, 25, 0}, 25}, Case{kRightForearm, {0, 140, 0}, 0},
+        Case{kRightForearm, {0, -25, 0}, 25}, Case{kLeftShin, {120, 0, 0}, 0},
+        Case{kLeftShin, {-20, 0, 0}, 20}, Case{kRightThigh, {0, 0, -40}, 0},
+        Case{kRightThigh, {0, 0, 50}, 20}, Case{kLeftUpperArm, {0, 0, 170}, 0}}) {
+    const double excess_rad = turn.excess_deg * kRadiansPerDegree;
+    BodyPose pose = Turned(turn.bone, turn.angles_deg);
+    for (int child = 0; child < kBoneCount; ++child) {
+      if (Bones()[child].parent == static_cast<int>(turn.bone))
+        pose[child].rotation = pose[static_cast<int>(turn.bone)].rotation;
+    }
+    EXPECT_NEAR(Energy(Limit(0.0), pose), 20.0 * excess_rad * excess_rad, 1e-9)
+        << Bones()[static_cast<int>(turn.bone)].name << " " << turn.angles_deg.transpose();
+    EXPECT_EQ(Energy(Limit(excess_rad + 0.01), pose), 0.0);
+  }
+}
+
+// A forearm that is bent and turned by more than half a turn in all: 140 degrees about the hinge
+// with the carrying axis of captured elbows. Its shorter rotation vector bends backwards.
+TEST_F(Terms, ABentElbowIsWithinItsRangeThoughItsRotationVectorIsLongerThanPi) {
+  const Vector3d bent_deg(0.0, -145.0, 110.0);
+  ASSERT_GT(bent_deg.norm(), 180.0);
+  BodyPose pose = Turned(BoneId::kLeftForearm, bent_deg);
+  pose[static_cast<int>(BoneId::kLeftHand)].rotation =
+      pose[static_cast<int>(BoneId::kLeftForearm)].rotation;
+  EXPECT_EQ(Energy(Limit(0.0), pose), 0.0);
+}
+
+TEST_F(Terms, ThePriorIsZeroAtTheUsualPoseAndCountsDeviations) {
+  BodyPose usual = rest;
+  for (int bone = 1; bone < kBoneCount; ++bone) {
+    usual[bone].rotation =
+        usual[Bones()[bone].parent].rotation * CapturedPoseStatistics()[bone].mean;
+  }
+  EXPECT_NEAR(Energy(Prior(), usual), 0.0, 1e-15);
+  // A head, from which nothing hangs, two deviations off.
+  const int head = static_cast<int>(BoneId::kHead);
+  const double angle_rad = 2.0 * CapturedPoseStatistics()[head].deviation_rad.y();
+  usual[head].rotation *= ExpSo3<double>({0.0, angle_rad, 0.0});
+  EXPECT_NEAR(Energy(Prior(), usual), 0.1 * 4.0, 1e-12);
+}
+
+TEST_F(Terms, SensorNoiseDividesARowsWeightByTheVarianceAlongIt) {
+  NoiseSettings noise;
+  const Vector3d before_camera(0.0, 0.0, 2.0);
+  EXPECT_EQ(NoiseWeight(noise, before_camera, Vector3d::UnitZ()), 1.0);
+  noise.model_deviation_m = 0.01;
+  noise.sensor.axial_base_m = 0.02;
+  noise.sensor.lateral_rad = 0.005;  // 0.01 m at 2 m
+  EXPECT_DOUBLE_EQ(NoiseWeight(noise, before_camera, Vector3d::UnitZ()), 1.0 / (1.0 + 4.0));
+  EXPECT_DOUBLE_EQ(NoiseWeight(noise, before_camera, Vector3d::UnitX()), 1.0 / (1.0 + 1.0));
+  const Vector3d slanted(0.6, 0.0, 0.8);
+  EXPECT_NEAR(NoiseWeight(noise, before_camera, slanted), 1.0 / (1.0 + 0.64 * 4.0 + 0.36), 1e-15);
+}
+
+TEST_F(Terms, AVertexLeavesFreeSpaceAlongItsLineOfSightOrToTheNearestMeasurement) {
+  const std::vector<Vector3f> vertices{
+      camera.Unproject(10.0f, 10.0f, 2.0f), camera.Unproject(20.0f, 10.0f, 2.0f),
+      camera.Unproject(26.0f, 10.0f, 2.0f), camera.Unproject(31.0f, 10.0f, 2.0f)};
+  DepthImage captured(camera.width, camera.height);
+  captured(10, 10) = 3.0f;                     // behind the first vertex
+  captured(30, 10) = captured(20, 18) = 2.5f;  // 8 pixels below the second, 4 and 1 from the others
+  VertexClasses classes;
+  classes.elsewhere = {0, 1, 2, 3};
+  FreeSpace free_space;
+  FindFreeSpace(vertices, classes, captured, camera, FitSettings{}, free_space);
+  ASSERT_EQ(free_space.ways_out.size(), 3u);  // the last is within the margin of an edge
+  const std::array expected{camera.Unproject(10.0f, 10.0f, 3.0f),
+                            camera.Unproject(20.0f, 18.0f, 2.0f),
+                            camera.Unproject(30.0f, 10.0f, 2.0f)};
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(free_space.ways_out[k].vertex, k);
+    EXPECT_LT((free_space.ways_out[k].target - expected[k]).norm(), 1e-6f) << k;
+  }
 }
 
 TEST_F(Terms, APlanePairAsksNothingAlongThePlane) {
@@ -210,8 +340,13 @@ TEST_F(Terms, TheListAddsEachTermOnceWithItsWeight) {
   settings.weights[EnergyTerm::kAxis] = 7.0;
   const JointTerm joints(model, settings.joint_rows);
   BlockNormalEquations all(kBoneCount), single(kBoneCount);
+  settings.weights[EnergyTerm::kFreeSpace] = 2.0;
+  settings.weights[EnergyTerm::kLimit] = 11.0;
+  settings.weights[EnergyTerm::kPrior] = 13.0;
+  settings.limit_slack_deg = 0.0;
+  const FreeSpace free_space{{Pair{3, Vector3f(0.1f, 0.2f, 2.0f)}}};
   const Energies energies = AddEnergyTerms(
-      {model, camera, settings, joints, bent, previous, data.classes, data.pairs}, all);
+      {model, camera, settings, joints, bent, previous, data.classes, data.pairs, free_space}, all);
   const auto energy_of = [&](EnergyTerm term) { return energies[static_cast<std::size_t>(term)]; };
   AddFitTerm(model, bent, camera, data.classes, data.pairs, settings.fit, kUnit_m, single);
   EXPECT_DOUBLE_EQ(energy_of(EnergyTerm::kFit), single.energy());
@@ -220,6 +355,11 @@ TEST_F(Terms, TheListAddsEachTermOnceWithItsWeight) {
               tolerance);
   EXPECT_NEAR(energy_of(EnergyTerm::kInertia), Energy(Inertia(previous), bent), tolerance);
   EXPECT_NEAR(energy_of(EnergyTerm::kAxis), 7.0 * Energy(Axis(), bent), tolerance);
+  BlockNormalEquations freed(kBoneCount);
+  AddFreeSpaceTerm(model, bent, free_space, settings.fit, 2.0, kUnit_m, freed);
+  EXPECT_NEAR(energy_of(EnergyTerm::kFreeSpace), freed.energy(), tolerance);
+  EXPECT_NEAR(energy_of(EnergyTerm::kLimit), 11.0 / 20.0 * Energy(Limit(0.0), bent), tolerance);
+  EXPECT_NEAR(energy_of(EnergyTerm::kPrior), 130.0 * Energy(Prior(), bent), tolerance);
   EXPECT_STREQ(Name(EnergyTerm::kInertia), "inertia");
 }
 
@@ -300,6 +440,8 @@ TEST_F(Terms, AreInvariantUnderARigidMotionOfEverything) {
   };
   for (const Term& term : JointTerms()) expect_same(term, term, 1e-9);
   expect_same(Axis(), Axis(), 1e-9);
+  expect_same(Prior(), Prior(), 1e-9);
+  expect_same(Limit(0.0), Limit(0.0), 1e-9);
   // The pelvis turns against the camera, all other bones against each other.
   LocalRotations moved_previous = previous;
   moved_previous[0] = moved_from_camera.rotation * previous[0];

@@ -14,6 +14,7 @@
 #include "core/worker_team.h"
 #include "geometry/depth_png.h"
 #include "geometry/mask_png.h"
+#include "math/rigid.h"
 #include "math/rotation.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_body.h"

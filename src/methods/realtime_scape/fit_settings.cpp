@@ -155,6 +155,38 @@ void FitSettings::DescribeWeights(Fields& f) {
          .origin = Origin::kGuessed,
          .source = "paper A is silent"});
   }
+  f.Section("noise", noise, {.meaning = "expected deviations, by which rows are weighed"});
+  f.Section("free_space", free_space, {.meaning = "visible vertices where nothing is measured"});
+}
+
+void NoiseSettings::Describe(Fields& f) {
+  f.Visit(sensor);
+  f.Number(
+      "model_deviation_m", model_deviation_m,
+      {.meaning = "standard deviation of the distance between the model's surface and the true "
+                  "one, with which the sensor's noise is compared",
+       .unit = "m",
+       .min = 1e-5,
+       .max = 1,
+       .origin = Origin::kGuessed,
+       .source = "skinning is some millimetres off"});
+}
+
+void FreeSpaceSettings::Describe(Fields& f) {
+  f.Integer("margin_px", margin_px,
+            {.meaning = "a vertex that projects this near to a measurement is not in free space",
+             .unit = "px",
+             .min = 0,
+             .max = 64,
+             .origin = Origin::kGuessed,
+             .source = "edges lose their measurements"});
+  f.Number("reach_m", reach_m,
+           {.meaning = "how far across the line of sight the edge of free space is sought",
+            .unit = "m",
+            .min = 0.01,
+            .max = 2,
+            .origin = Origin::kGuessed,
+            .source = "a limb that is farther off is not where it is sought"});
 }
 
 void SearchSettings::Describe(Fields& f) {

@@ -50,6 +50,14 @@ BoneTransforms ToTransforms(const Model& model, const BodyPose& pose) {
   return camera_from_rest;
 }
 
+BodyPose ToPose(const Model& model, const BoneTransforms& camera_from_rest) {
+  BodyPose pose;
+  for (int j = 0; j < kBoneCount; ++j) {
+    pose[j] = {camera_from_rest[j].rotation, camera_from_rest[j] * model.rest_centers[j]};
+  }
+  return pose;
+}
+
 void PoseSurface(const Model& model, const BodyPose& pose, PosedSurface& surface) {
   surface.camera_from_rest = ToTransforms(model, pose);
   SkinLinear(model.rest_vertices, model.weights, surface.camera_from_rest, surface.vertices);

@@ -34,6 +34,7 @@ FitSummary PoseFitter::Fit(const Observation& observation, const PoseHistory& hi
     const Classification& classification = Classify(observation, surface_, view);
     const std::vector<Pair>& pairs =
         Correspond(observation, surface_, view, classification, history.visibility);
+    const FreeSpace& free_space = Delimit(observation, surface_, classification);
     const auto input_at = [&](const BodyPose& pose) {
       return TermInput{model_,
                        camera_,
@@ -42,7 +43,8 @@ FitSummary PoseFitter::Fit(const Observation& observation, const PoseHistory& hi
                        pose,
                        prediction.local_rotations,
                        classification.classes,
-                       pairs};
+                       pairs,
+                       free_space};
     };
     fit.energies = Assemble(input_at(fit.pose));
     const Solution solution = Solve(equations_);
@@ -127,6 +129,16 @@ const std::vector<Pair>& PoseFitter::Correspond(const Observation& observation,
       correspondence_finder_.FindPairs(observation, surface, classification, sets, visibility);
   clock_.Lap(Step::kCorrespond);
   return pairs;
+}
+
+// Not in the paper, and timed with line 8.
+const FreeSpace& PoseFitter::Delimit(const Observation& observation, const PosedSurface& surface,
+                                     const Classification& classification) {
+  if (settings_.weights[EnergyTerm::kFreeSpace] == 0.0) return free_space_;
+  FindFreeSpace(surface.vertices, classification.classes, *observation.depth, camera_,
+                settings_.fit, free_space_);
+  clock_.Lap(Step::kCorrespond);
+  return free_space_;
 }
 
 // Line 9.

@@ -8,6 +8,7 @@
 #include "methods/realtime_scape/pose_step.h"
 #include "methods/realtime_scape/prediction.h"
 #include "methods/realtime_scape/terms/energy_terms.h"
+#include "methods/realtime_scape/terms/free_space_term.h"
 #include "methods/realtime_scape/terms/joint_term.h"
 #include "solver/linear_solver.h"
 #include "tracking/agreement.h"
@@ -52,6 +53,9 @@ class PoseFitter {
 
   // Lines 5 and 7 for a pose, without iterations.
   PoseCheck Compare(const Observation& observation, const BodyPose& pose);
+  // Points of the cloud that the pose of the last Fit or Compare does not explain, by their
+  // indices.
+  const std::vector<int>& unexplained() const { return classification_.unexplained; }
   // Mean of the vertices that are visible in a pose (camera frame, metres); the root's centre if
   // none is.
   Vector3d VisibleCentroid(const BodyPose& pose);
@@ -70,6 +74,8 @@ class PoseFitter {
                                       const RenderedView& view,
                                       const Classification& classification,
                                       const BoneVisibility& visibility);
+  const FreeSpace& Delimit(const Observation& observation, const PosedSurface& surface,
+                           const Classification& classification);
   Energies Assemble(const TermInput& input);
   Solution Solve(const BlockNormalEquations& equations);
   double EnergyRise(const BlockNormalEquations& before, const TermInput& after);
@@ -88,6 +94,7 @@ class PoseFitter {
   PosedSurface surface_;
   RenderedView view_;
   Classification classification_;
+  FreeSpace free_space_;
   BlockNormalEquations equations_, equations_after_;  // before and after a step
   Eigen::VectorXd increment_;
 };

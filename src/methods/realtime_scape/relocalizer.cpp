@@ -1,24 +1,12 @@
 #include "methods/realtime_scape/relocalizer.h"
 
-#include <numeric>
-
+#include "geometry/point_sets.h"
 #include "math/angles.h"
+#include "tracking/cloud_parts.h"
 #include "tracking/loss_detector.h"
 #include "tracking/pose_search.h"
 
 namespace vitruvia::realtime_scape {
-namespace {
-
-Vector3d Centroid(const std::vector<Vector3f>& points) {
-  const auto add = [](const Vector3d& sum, const Vector3f& p) -> Vector3d {
-    return sum + p.cast<double>();
-  };
-  return std::accumulate(points.begin(), points.end(), Vector3d(Vector3d::Zero()), add) /
-         static_cast<double>(points.size());
-}
-
-}  // namespace
-
 // Tests hypotheses against one frame (see tracking/pose_search.h).
 class Relocalizer::Tester {
  public:
@@ -44,6 +32,7 @@ class Relocalizer::Tester {
 
 Relocalizer::Relocalizer(const Model& model, const PinholeCamera& camera, const Settings& settings)
     : settings_(settings),
+      camera_(camera),
       fitter_(model, camera, settings),
       memory_(settings.recovery.num_remembered,
               settings.recovery.min_pose_distance_deg * kRadiansPerDegree, MeanJointAngle) {}
@@ -57,12 +46,22 @@ std::optional<FitSummary> Relocalizer::Search(const Observation& observation,
   return best;
 }
 
-// Moves the pose so that the centroid of its visible vertices lies on the cloud's.
-BodyPose Relocalizer::AlignCentroidToCloud(const PointCloud& cloud, BodyPose pose) {
+// Of the whole cloud, and of its parts where there are several.
+std::vector<Vector3d> Relocalizer::Centers(const PointCloud& cloud) const {
+  constexpr double kMinShare = 0.1;  // of the cloud's points in a part
+  std::vector<Vector3d> centers{Centroid(cloud.points)};
+  if (settings_.recovery.part_gap_m == 0.0) return centers;
+  const std::vector<Vector3d> parts = CentersOfParts(cloud, camera_.width, settings_.cloud.stride,
+                                                     settings_.recovery.part_gap_m, kMinShare);
+  if (parts.size() > 1) centers.insert(centers.end(), parts.begin(), parts.end());
+  return centers;
+}
+
+// Moves the pose so that the centroid of its visible vertices lies there.
+BodyPose Relocalizer::AlignCentroid(const Vector3d& center, BodyPose pose) {
   constexpr int kRounds = 2;  // moving the body changes what is visible of it
-  const Vector3d observed = Centroid(cloud.points);
   for (int round = 0; round < kRounds; ++round) {
-    pose = Translated(pose, observed - fitter_.VisibleCentroid(pose));
+    pose = Translated(pose, center - fitter_.VisibleCentroid(pose));
   }
   return pose;
 }
@@ -73,11 +72,13 @@ std::vector<BodyPose> Relocalizer::Hypotheses(const PointCloud& cloud, const Bod
   seeds.push_back(current);
   const std::vector<Matrix3<double>> rotations = HypothesisRotations();
   std::vector<BodyPose> hypotheses;
-  for (const BodyPose& seed : seeds) {
-    for (const Matrix3<double>& rotation : rotations) {
-      const BodyPose aligned = AlignCentroidToCloud(cloud, RotatedAboutRoot(seed, rotation));
-      for (const double offset_m : kOffsets_m) {
-        hypotheses.push_back(Translated(aligned, {offset_m, 0.0, 0.0}));
+  for (const Vector3d& center : Centers(cloud)) {
+    for (const BodyPose& seed : seeds) {
+      for (const Matrix3<double>& rotation : rotations) {
+        const BodyPose aligned = AlignCentroid(center, RotatedAboutRoot(seed, rotation));
+        for (const double offset_m : kOffsets_m) {
+          hypotheses.push_back(Translated(aligned, {offset_m, 0.0, 0.0}));
+        }
       }
     }
   }

@@ -17,18 +17,20 @@ class Relocalizer {
   void Remember(const BodyPose& pose) { memory_.Remember(pose); }
 
   // Hypotheses are the remembered poses and the current one, each rotated to all sides, aligned
-  // with the cloud, and beside that place. The best are refined; the best of those is returned if
-  // it agrees with the frame clearly better than the current pose. Its agreement and counts are of
-  // the pose returned.
+  // with the cloud or one of its parts, and beside that place. The best are refined; the best of
+  // those is returned if it agrees with the frame clearly better than the current pose. Its
+  // agreement and counts are of the pose returned.
   std::optional<FitSummary> Search(const Observation& observation, const FitSummary& current);
 
  private:
   class Tester;
 
-  BodyPose AlignCentroidToCloud(const PointCloud& cloud, BodyPose pose);
+  std::vector<Vector3d> Centers(const PointCloud& cloud) const;
+  BodyPose AlignCentroid(const Vector3d& center, BodyPose pose);
   std::vector<BodyPose> Hypotheses(const PointCloud& cloud, const BodyPose& current);
 
   Settings settings_;
+  PinholeCamera camera_;
   PoseFitter fitter_;
   PoseMemory<BodyPose> memory_;
 };

@@ -45,6 +45,46 @@ void MotionSettings::Describe(Fields& f) {
        .source = "an unobserved limb comes to rest within half a second"});
 }
 
+void LimbSettings::Describe(Fields& f) {
+  constexpr const char* kSource = "paper A lists recovery as future work";
+  f.Number("min_unexplained_m2", min_unexplained_m2,
+           {.meaning = "area of the captured surface that the model does not explain from which on "
+                       "a limb is searched there; 0: never",
+            .unit = "m²",
+            .min = 0,
+            .max = 10,
+            .origin = Origin::kGuessed,
+            .source = kSource});
+  if (!f.Applies(min_unexplained_m2 > 0.0)) return;
+  f.Number("margin", margin,
+           {.meaning = "a limb that was searched and found is moved only if the score (explained "
+                       "share of the cloud times confirmed share of the model) rises by at least "
+                       "this much",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kGuessed,
+            .source = kSource});
+  f.Integer("num_targets", num_targets,
+            {.meaning = "number of unexplained points at which the end of each limb is tried",
+             .min = 1,
+             .max = 1000,
+             .origin = Origin::kGuessed,
+             .source = kSource});
+  f.Integer("num_swivels", num_swivels,
+            {.meaning = "number of angles about the line from a limb's root to its end at which "
+                        "the limb is tried",
+             .min = 1,
+             .max = 1000,
+             .origin = Origin::kGuessed,
+             .source = kSource});
+  f.Integer("num_refined", num_refined,
+            {.meaning = "number of best-scoring places of a limb that are refined by iterations",
+             .min = 1,
+             .max = 1000,
+             .origin = Origin::kGuessed,
+             .source = kSource});
+}
+
 void StoppingSettings::Describe(Fields& f) {
   f.Number(
       "rotation_step_deg", rotation_step_deg,
@@ -147,7 +187,12 @@ void Settings::Describe(Fields& f) {
        .source = "paper A, sec. 6.2: linear, which leaves the set of rotations"});
   f.Section("stopping", stopping, {.meaning = "stopping rule of the iterations"});
   f.Section("solver", solver, {.meaning = "solver of the linearised problem"});
+  DescribeStart(f, start);
   f.Section("placement", placement, {.meaning = "first placement of the rest pose"});
+  if (f.Applies(start == Start::kSearch)) {
+    f.Section("start_search", start_search, {.meaning = "search for the first pose"});
+  }
+  f.Section("limbs", limbs, {.meaning = "search for limbs that moved away from the model"});
   f.Section("recovery", recovery, {.meaning = "detection of a lost subject and relocalisation"});
   f.Number(
       "lost_below", lost_below,
@@ -175,6 +220,17 @@ void Settings::DescribeEnergy(Fields& f) {
            "paper A, sec. 6.2 counts 3 rows a joint, eq. 7 prints all vertices; mean errors on "
            "realtime_scape/fig11: 1.4, 2.2 and 6 mm"});
   f.Visit(weights);
+  if (f.Applies(weights[EnergyTerm::kLimit] > 0.0)) {
+    f.Number(
+        "limit_slack_deg", limit_slack_deg,
+        {.meaning = "angle by which a joint may exceed its anatomical range at no cost",
+         .unit = "deg",
+         .min = 0,
+         .max = 180,
+         .origin = Origin::kGuessed,
+         .source = "captured skeletons exceed the ranges by some degrees, for their joints are "
+                   "not quite a body's"});
+  }
   f.Number(
       "length_unit_m", length_unit_m,
       {.meaning = "length that counts as 1 where squared lengths are added to squared entries of "

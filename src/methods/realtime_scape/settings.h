@@ -7,8 +7,10 @@
 #include "search/nearest_neighbors.h"
 #include "solver/linear_solver.h"
 #include "tracking/classification.h"
+#include "tracking/depth_noise.h"
 #include "tracking/placement.h"
 #include "tracking/relocalization_settings.h"
+#include "tracking/start_search.h"
 
 namespace vitruvia::realtime_scape {
 
@@ -61,6 +63,20 @@ struct CloudSettings {
   void Describe(Fields& fields);
 };
 
+// What is expected of a residual: a row weighs 1 / (1 + σ_sensor² / σ_model²).
+struct NoiseSettings {
+  DepthNoise sensor;
+  double model_deviation_m = 0.005;  // metres
+  void Describe(Fields& fields);
+};
+
+// Visible vertices where the frame shows that nothing is (terms/free_space_term.h).
+struct FreeSpaceSettings {
+  int margin_px = 2;
+  double reach_m = 0.3;  // metres
+  void Describe(Fields& fields);
+};
+
 struct FitSettings {
   SurfaceResidual surface_residual = SurfaceResidual::kPlane;
   PairResidual pair_residual = PairResidual::kPoint;
@@ -78,6 +94,8 @@ struct FitSettings {
   int surface_stride = 1;
   RobustKernel kernel = RobustKernel::kHuber;
   double kernel_scale_m = 0.01;
+  NoiseSettings noise{};
+  FreeSpaceSettings free_space{};
   void Describe(Fields& fields);
 
  private:
@@ -104,6 +122,13 @@ struct MotionSettings {
   void Describe(Fields& fields);
 };
 
+struct LimbSettings {
+  double min_unexplained_m2 = 0.0;  // 0: limbs are not searched
+  double margin = 0.01;
+  int num_targets = 8, num_swivels = 12, num_refined = 2;
+  void Describe(Fields& fields);
+};
+
 struct StoppingSettings {
   double rotation_step_deg = 1.0;
   double translation_step_m = 0.005;
@@ -126,11 +151,15 @@ struct Settings {
   MotionSettings motion;
   JointRows joint_rows = JointRows::kJointPosition;
   TermWeights weights;
+  double limit_slack_deg = 15.0;
   double length_unit_m = 0.05;
   RotationUpdate rotation_update = RotationUpdate::kExponential;
   StoppingSettings stopping;
   SolverSettings solver;
-  PlacementSettings placement;
+  Start start = Start::kRestPose;
+  PlacementSettings placement;       // of start kRestPose
+  StartSearchSettings start_search;  // of start kSearch
+  LimbSettings limbs;
   RelocalizationSettings recovery;
   double lost_below = 0.3;
   void Describe(Fields& fields);

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "methods/realtime_scape/limb_finder.h"
 #include "methods/realtime_scape/relocalizer.h"
 #include "tracking/frame_checks.h"
 #include "tracking/loss_detector.h"
@@ -23,9 +24,11 @@ class SubjectTracker {
     std::string message;
   };
 
+  std::optional<PoseHistory> FirstPose(const Observation& observation);
   PoseHistory Place(const PointCloud& cloud) const;
   FitSummary TakeBetterPose(const Observation& observation, FitSummary fit, bool is_first);
-  TrackResult CarryOver();
+  FitSummary TakeFoundLimb(const Observation& observation, FitSummary fit);
+  TrackResult CarryOver(Ending ending);
   Ending EndingOf(const FitSummary& fit) const;
   TrackResult Result(FitSummary fit, Ending ending) const;
 
@@ -34,8 +37,11 @@ class SubjectTracker {
   Model model_;
   Observer observer_;
   PoseFitter fitter_;
+  LimbFinder limb_finder_;
   Relocalizer relocalizer_;
   LossDetector loss_detector_;
+  std::optional<StartSearch> start_search_;
+  std::string start_message_;  // of the last search
   StepClock<RealtimeScapeStep> clock_;
   std::optional<PoseHistory> history_;  // from the first frame with measurements on
 };

@@ -8,7 +8,16 @@
 
 namespace vitruvia::realtime_scape {
 
-enum class EnergyTerm { kFit, kJoint, kInertia, kAxis, kCount };
+enum class EnergyTerm {
+  kFit,  // this and the next three: paper A, eq. 7
+  kJoint,
+  kInertia,
+  kAxis,
+  kFreeSpace,  // this and those below: ours
+  kLimit,
+  kPrior,
+  kCount
+};
 inline constexpr auto kEnergyTermCount = static_cast<std::size_t>(EnergyTerm::kCount);
 
 // What a term is called in results.

@@ -1,9 +1,13 @@
 #include "methods/realtime_scape/terms/energy_terms.h"
 
+#include "math/angles.h"
 #include "methods/realtime_scape/terms/axis_term.h"
 #include "methods/realtime_scape/terms/fit_term.h"
+#include "methods/realtime_scape/terms/free_space_term.h"
 #include "methods/realtime_scape/terms/inertia_term.h"
 #include "methods/realtime_scape/terms/joint_term.h"
+#include "methods/realtime_scape/terms/limit_term.h"
+#include "methods/realtime_scape/terms/prior_term.h"
 
 namespace vitruvia::realtime_scape {
 namespace {
@@ -23,6 +27,15 @@ About AboutWeight(const char* meaning) {
           .max = 1e9,
           .origin = Origin::kPaper,
           .source = "paper A, eq. 7"};
+}
+
+// Of a term that paper A does not have; 0 leaves it out.
+About AboutOwnWeight(const char* meaning) {
+  return {.meaning = meaning,
+          .min = 0,
+          .max = 1e9,
+          .origin = Origin::kGuessed,
+          .source = "paper A has no such term"};
 }
 
 // In the order of the enum, in which they are added.
@@ -53,6 +66,25 @@ const std::array<TermEntry, kEnergyTermCount>& Terms() {
        [](const TermInput& in, double weight, BlockNormalEquations& equations) {
          AddAxisTerm(in.pose, weight, equations);
        }},
+      {EnergyTerm::kFreeSpace, "free_space", "free_space_weight", 0.0,
+       AboutOwnWeight("weight of the term that draws visible vertices out of space that the frame "
+                      "shows to be free"),
+       [](const TermInput& in, double weight, BlockNormalEquations& equations) {
+         AddFreeSpaceTerm(in.model, in.pose, in.free_space, in.settings.fit, weight,
+                          in.settings.length_unit_m, equations);
+       }},
+      {EnergyTerm::kLimit, "limit", "limit_weight", 0.0,
+       AboutOwnWeight("weight of the term that keeps joints within their anatomical range, per "
+                      "squared radian"),
+       [](const TermInput& in, double weight, BlockNormalEquations& equations) {
+         AddLimitTerm(in.pose, in.settings.limit_slack_deg * kRadiansPerDegree, weight, equations);
+       }},
+      {EnergyTerm::kPrior, "prior", "prior_weight", 0.0,
+       AboutOwnWeight("weight of the term that draws local rotations to those usual in captured "
+                      "motion, per squared standard deviation"),
+       [](const TermInput& in, double weight, BlockNormalEquations& equations) {
+         AddPriorTerm(in.pose, weight, equations);
+       }},
   }};
   return terms;
 }
@@ -74,6 +106,7 @@ void TermWeights::Describe(Fields& f) {
 Energies AddEnergyTerms(const TermInput& input, BlockNormalEquations& equations) {
   Energies energies{};
   for (const TermEntry& entry : Terms()) {
+    if (input.settings.weights[entry.term] == 0.0) continue;
     const double before = equations.energy();
     entry.add(input, input.settings.weights[entry.term], equations);
     energies[static_cast<std::size_t>(entry.term)] = equations.energy() - before;

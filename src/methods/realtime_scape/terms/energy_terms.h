@@ -12,6 +12,7 @@
 namespace vitruvia::realtime_scape {
 
 class JointTerm;
+struct FreeSpace;
 
 // All that a term may depend on, at one linearisation.
 struct TermInput {
@@ -23,6 +24,7 @@ struct TermInput {
   const LocalRotations& expected;  // local rotations that inertia holds on to
   const VertexClasses& classes;
   const std::vector<Pair>& pairs;
+  const FreeSpace& free_space;
 };
 
 // Adds the rows of all terms to the normal equations. The unknowns of each bone are a rotation

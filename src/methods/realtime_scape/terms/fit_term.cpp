@@ -2,44 +2,10 @@
 
 #include <cmath>
 
+#include "methods/realtime_scape/terms/posed_vertex.h"
+
 namespace vitruvia::realtime_scape {
 namespace {
-
-// A posed vertex and its derivative by the bones' increments: bone j with weight w moves it by
-// w (r × arm_j + t), where arm_j = R_j (v̄ − c̄_j) is the vertex under that bone alone, relative to
-// the bone's centre.
-class PosedVertex {
- public:
-  PosedVertex(const Model& model, const BodyPose& pose, int vertex)
-      : influences_(model.InfluencesOf(vertex)) {
-    const Vector3d rest = model.rest_vertices[vertex].cast<double>();
-    for (std::size_t k = 0; k < influences_.size(); ++k) {
-      const auto [bone, w] = influences_[k];
-      arms_[k] = pose[bone].rotation * (rest - model.rest_centers[bone]);
-      position_ += double{w} * (arms_[k] + pose[bone].center);
-    }
-  }
-
-  const Vector3d& position() const { return position_; }
-
-  // direction · (vertex − target), a length, as one row.
-  void AddRow(const Vector3d& direction, double residual_m, double weight, double per_unit,
-              BlockNormalEquations& equations) const {
-    std::array<BlockNormalEquations::Entry, kMaxInfluences> entries;
-    for (std::size_t k = 0; k < influences_.size(); ++k) {
-      const auto [bone, w] = influences_[k];
-      entries[k].block = bone;
-      entries[k].jacobian << double{w} * per_unit * arms_[k].cross(direction),
-          double{w} * direction;
-    }
-    equations.AddRow({entries.data(), influences_.size()}, residual_m * per_unit, weight);
-  }
-
- private:
-  std::span<const Influence> influences_;
-  std::array<Vector3d, kMaxInfluences> arms_;
-  Vector3d position_ = Vector3d::Zero();
-};
 
 // The vertex's normal, rotated by its bones and blended by their weights.
 Vector3d PosedNormal(const Model& model, const BodyPose& pose, int vertex) {
@@ -69,13 +35,21 @@ double RobustWeight(RobustKernel kernel, double residual_m, double scale_m) {
   return 1.0;
 }
 
+double NoiseWeight(const NoiseSettings& noise, const Vector3d& point, const Vector3d& direction) {
+  const double model_m2 = noise.model_deviation_m * noise.model_deviation_m;
+  const double cosine = direction.dot(point.normalized());
+  return model_m2 / (model_m2 + noise.sensor.Variance_m2(point.z(), cosine));
+}
+
 void AddFitTerm(const Model& model, const BodyPose& pose, const PinholeCamera& camera,
                 const VertexClasses& classes, const std::vector<Pair>& pairs,
                 const FitSettings& settings, double length_unit_m,
                 BlockNormalEquations& equations) {
   const double per_unit = 1.0 / length_unit_m;
-  const auto robust = [&](double residual_m) {
-    return RobustWeight(settings.kernel, residual_m, settings.kernel_scale_m);
+  // The kernel's scale grows with the deviation that is expected of the row.
+  const auto robust = [&](double residual_m, double noise_weight) {
+    return noise_weight * RobustWeight(settings.kernel, residual_m * std::sqrt(noise_weight),
+                                       settings.kernel_scale_m);
   };
 
   const auto stride = static_cast<std::size_t>(settings.surface_stride);
@@ -84,29 +58,32 @@ void AddFitTerm(const Model& model, const BodyPose& pose, const PinholeCamera& c
     const int index = classes.near_surface[k];
     const PosedVertex vertex(model, pose, index);
     const double observed_depth = classes.observed_depth[k];
-    if (settings.surface_residual == SurfaceResidual::kDepth) {
-      const double residual_m = vertex.position().z() - observed_depth;
-      vertex.AddRow(Vector3d::UnitZ(), residual_m, surface_weight * robust(residual_m), per_unit,
-                    equations);
-    } else {
-      const auto pixel = camera.Project(vertex.position());
-      const Vector3d observed = camera.Unproject(pixel.x(), pixel.y(), observed_depth);
-      const Vector3d normal = PosedNormal(model, pose, index);
-      const double residual_m = normal.dot(vertex.position() - observed);
-      vertex.AddRow(normal, residual_m, surface_weight * robust(residual_m), per_unit, equations);
-    }
+    const auto pixel = camera.Project(vertex.position());
+    const Vector3d observed = camera.Unproject(pixel.x(), pixel.y(), observed_depth);
+    const Vector3d direction = settings.surface_residual == SurfaceResidual::kDepth
+                                   ? Vector3d::UnitZ()
+                                   : PosedNormal(model, pose, index);
+    const double residual_m = settings.surface_residual == SurfaceResidual::kDepth
+                                  ? vertex.position().z() - observed_depth
+                                  : direction.dot(vertex.position() - observed);
+    const double noise_weight = NoiseWeight(settings.noise, observed, direction);
+    vertex.AddRow(direction, residual_m, surface_weight * robust(residual_m, noise_weight),
+                  per_unit, equations);
   }
   for (const Pair& pair : pairs) {
     const PosedVertex vertex(model, pose, pair.vertex);
-    const Vector3d offset = vertex.position() - pair.target.cast<double>();
+    const Vector3d target = pair.target.cast<double>();
+    const Vector3d offset = vertex.position() - target;
     if (settings.pair_residual == PairResidual::kPlane) {
       const Vector3d normal = PosedNormal(model, pose, pair.vertex);
       const double residual_m = normal.dot(offset);
-      vertex.AddRow(normal, residual_m, settings.pair_weight * robust(residual_m), per_unit,
-                    equations);
+      const double noise_weight = NoiseWeight(settings.noise, target, normal);
+      vertex.AddRow(normal, residual_m, settings.pair_weight * robust(residual_m, noise_weight),
+                    per_unit, equations);
       continue;
     }
-    const double weight = settings.pair_weight * robust(offset.norm());
+    const double noise_weight = NoiseWeight(settings.noise, target, target.normalized());
+    const double weight = settings.pair_weight * robust(offset.norm(), noise_weight);
     for (int axis = 0; axis < 3; ++axis) {
       vertex.AddRow(Vector3d::Unit(axis), offset[axis], weight, per_unit, equations);
     }

@@ -1,0 +1,56 @@
+// Finds a limb again that has moved away from where the tracker expects it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "methods/realtime_scape/pose_fitter.h"
+
+namespace vitruvia::realtime_scape {
+
+// The two bones of an arm or leg and the one that hangs from them.
+struct Limb {
+  BoneId upper, lower, end;
+  // In the rest pose: the hinge between upper and lower bone, about which it bends by a positive
+  // angle.
+  Vector3d hinge;
+};
+const std::array<Limb, 4>& Limbs();
+
+// The pose with the limb's lower end (wrist, ankle) at `target` (camera frame), or as near as it
+// reaches, and bent the way that its hinge bends. `swivel_rad` turns the limb about the line from
+// its root to the target.
+BodyPose WithLimbAt(const Model& model, const BodyPose& pose, const Limb& limb,
+                    const Vector3d& target, double swivel_rad);
+
+class LimbFinder {
+ public:
+  LimbFinder(const Model& model, const PinholeCamera& camera, const Settings& settings);
+
+  // Where the frame shows enough that `current` does not explain (`unexplained`, indices of the
+  // cloud's points): hypotheses put the end of each limb on unexplained points, are scored by their
+  // bones' axes, and the best are refined. Nothing if none of them is clearly better.
+  std::optional<FitSummary> Search(const Observation& observation, const FitSummary& current,
+                                   const std::vector<int>& unexplained);
+
+ private:
+  struct Hypothesis {
+    BodyPose pose;
+    double score;
+  };
+
+  void CollectUnexplained(const Observation& observation, const std::vector<int>& unexplained);
+  double UnexplainedArea_m2() const;
+  std::vector<Vector3d> SpreadTargets(const Vector3d& root) const;
+  std::vector<Hypothesis> Hypotheses(const Observation& observation, const BodyPose& pose) const;
+  double Score(const Observation& observation, const BodyPose& pose, const Limb& limb) const;
+
+  const Model& model_;
+  PinholeCamera camera_;
+  Settings settings_;
+  PoseFitter fitter_;
+  std::array<double, kBoneCount> radius_m_;  // mean distance of skin and axis
+  std::vector<Vector3d> points_;             // unexplained, camera frame
+};
+
+}  // namespace vitruvia::realtime_scape
