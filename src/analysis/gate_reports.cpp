@@ -155,12 +155,12 @@ void RegressionFile::FindingEntry::Describe(Fields& f) {
   f.Number("limit", limit, {.meaning = "worst value that would have passed", .infinite = true});
   f.Number("ratio_low", ratio.low,
            {.meaning = "lower end of the interval of the time's ratio; only of speed",
-            .infinite = true,
-            .optional = true});
+            .optional = true,
+            .infinite = true});
   f.Number("ratio_high", ratio.high,
            {.meaning = "upper end of the interval of the time's ratio; only of speed",
-            .infinite = true,
-            .optional = true});
+            .optional = true,
+            .infinite = true});
   f.Choice("change", change,
            {{Name(Change::kWithin), Change::kWithin},
             {Name(Change::kImproved), Change::kImproved},

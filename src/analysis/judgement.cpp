@@ -101,7 +101,7 @@ class Judging {
       : baseline_(baseline), tolerances_(tolerances), history_(history), commit_(commit) {}
 
   void CompareAccuracy(const GatedRun& was, const GatedRun& is) {
-    for (const auto& [metric, value] : was.accuracy) CompareMetric(was, is, metric, value);
+    for (const auto& [metric, value] : was.accuracy) CompareMetric(is, metric, value);
     if (!is.unsteady.empty()) {
       judgement_.failures[is.name()] =
           fmt::format("not the same in all repeats: {}", fmt::join(is.unsteady, ", "));
@@ -129,18 +129,17 @@ class Judging {
   Judgement& judgement() { return judgement_; }
 
  private:
-  void CompareMetric(const GatedRun& was, const GatedRun& is, const std::string& metric,
-                     double value) {
+  void CompareMetric(const GatedRun& is, const std::string& metric, double was) {
     const auto found = is.accuracy.find(metric);
     if (found == is.accuracy.end()) {
       judgement_.unmeasured.push_back(fmt::format("{}: {}", is.name(), metric));
       return;
     }
-    const Limits limits = AccuracyLimits(metric, value, tolerances_.accuracy);
+    const Limits limits = AccuracyLimits(metric, was, tolerances_.accuracy);
     Finding finding;
     finding.run = is.name();
     finding.metric = metric;
-    finding.was = value;
+    finding.was = was;
     finding.is = found->second;
     finding.limit = limits.worst;
     finding.change = ChangeOf(finding.is, limits);

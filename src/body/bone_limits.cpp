@@ -1,7 +1,8 @@
 #include "body/bone_limits.h"
 
+#include <algorithm>
 #include <limits>
-#include <utility>
+#include <tuple>
 
 #include "body/joint_limits.h"
 #include "math/angles.h"

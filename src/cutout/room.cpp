@@ -196,20 +196,42 @@ std::optional<FloorPlane> FindFloor(const std::vector<const DepthImage*>& frames
   return best;
 }
 
+// The foreground's pixels that are not certainly above the floor, and what is within reach of them.
+cv::Rect ReachOfLow(const DepthImage& depth, const MaskImage& certain, const MaskImage& foreground,
+                    float reach_px_m) {
+  cv::Rect low;
+  float nearest_m = kBeyondRange;
+  for (int v = 0; v < depth.height(); ++v) {
+    for (int u = 0; u < depth.width(); ++u) {
+      if (foreground(u, v) == 0 || certain(u, v) != 0) continue;
+      low |= cv::Rect(u, v, 1, 1);
+      nearest_m = std::min(nearest_m, depth(u, v));
+    }
+  }
+  if (low.empty()) return low;
+  const int reach_px = static_cast<int>(std::ceil(reach_px_m / nearest_m));
+  return cv::Rect(low.x - reach_px, low.y - reach_px, low.width + 2 * reach_px,
+                  low.height + 2 * reach_px) &
+         cv::Rect(0, 0, depth.width(), depth.height());
+}
+
 // Keeps pixels that are certainly above the floor, and lower ones near them.
 void KeepNearCertain(const DepthImage& depth, const MaskImage& certain,
                      const FloorSettings& settings, const PinholeCamera& camera,
                      MaskImage& foreground) {
+  const auto reach_px_m = static_cast<float>(settings.reach_m * camera.fy);
+  const cv::Rect part = ReachOfLow(depth, certain, foreground, reach_px_m);
+  if (part.empty()) return;
   const cv::Mat from(depth.height(), depth.width(), CV_8UC1,
                      const_cast<std::uint8_t*>(certain.pixels().data()));
   cv::Mat others, distance_px;
-  cv::compare(from, 0, others, cv::CMP_EQ);
+  cv::compare(from(part), 0, others, cv::CMP_EQ);
   cv::distanceTransform(others, distance_px, cv::DIST_L2, cv::DIST_MASK_3, CV_32F);
-  const auto reach = static_cast<float>(settings.reach_m * camera.fy);
-  for (int v = 0; v < depth.height(); ++v) {
-    const auto* row_px = distance_px.ptr<float>(v);
-    for (int u = 0; u < depth.width(); ++u) {
-      if (foreground(u, v) != 0 && row_px[u] * depth(u, v) > reach) foreground(u, v) = 0;
+  for (int v = part.y; v < part.y + part.height; ++v) {
+    const auto* row_px = distance_px.ptr<float>(v - part.y);
+    for (int u = part.x; u < part.x + part.width; ++u) {
+      const bool is_far = row_px[u - part.x] * depth(u, v) > reach_px_m;
+      if (foreground(u, v) != 0 && is_far) foreground(u, v) = 0;
     }
   }
 }

@@ -155,11 +155,12 @@ void DepthTarget::FindPairs(const PosedBody& body, double cutoff_m, std::vector<
     const Evidence evidence = EvidenceOf(p, cutoff_m);
     if (evidence == Evidence::kHidden) continue;
     const Vector3f apart = p - points_.points[s];
+    const float area = body.AreaShare(visible_[i]);
     if (evidence == Evidence::kContradicted) {
       if (apart.norm() > 0.0f)
-        pairs.push_back({visible_[i], points_.points[s], apart.normalized()});
+        pairs.push_back({visible_[i], points_.points[s], apart.normalized(), area});
     } else if (points_.normals[s].dot(body.normals()[visible_[i]]) > kLeastCosine) {
-      pairs.push_back({visible_[i], points_.points[s], points_.normals[s]});
+      pairs.push_back({visible_[i], points_.points[s], points_.normals[s], area});
     }
   }
   body_tree_.Build(visible_positions_);
@@ -181,8 +182,9 @@ MutualDistance DepthTarget::Measure(const PosedBody& body, const NearFar& limits
     const Vector3f& p = visible_positions_[i];
     const Evidence evidence = EvidenceOf(p, limits.near_m);
     if (evidence == Evidence::kHidden) continue;
+    const float area = body.AreaShare(visible_[i]);
     if (neighbors_[i].index < 0) {
-      from_body.Add(limits.far_m, limits);
+      from_body.Add(limits.far_m, area, limits);
       continue;
     }
     const auto s = static_cast<std::size_t>(neighbors_[i].index);
@@ -190,19 +192,19 @@ MutualDistance DepthTarget::Measure(const PosedBody& body, const NearFar& limits
     from_body.Add(evidence == Evidence::kSurface
                       ? SurfaceDistance(apart, points_.normals[s], body.mean_edge_m())
                       : double{apart.norm()},
-                  limits);
+                  area, limits);
   }
   body_tree_.Build(visible_positions_);
   body_tree_.FindNearest(seekers_.points, far_m, neighbors_);
   for (std::size_t q = 0; q < seekers_.points.size(); ++q) {
     if (neighbors_[q].index < 0) {
-      from_target.Add(limits.far_m, limits);
+      from_target.Add(limits.far_m, 1.0, limits);
       continue;
     }
     const auto v = static_cast<std::size_t>(visible_[neighbors_[q].index]);
     from_target.Add(SurfaceDistance(seekers_.points[q] - body.vertices()[v], body.normals()[v],
                                     body.mean_edge_m()),
-                    limits);
+                    1.0, limits);
   }
   return {from_target.MeanOr(limits.far_m), from_body.MeanOr(limits.far_m), from_target.share(),
           from_body.share()};

@@ -14,17 +14,16 @@ inline double SurfaceDistance(const Vector3f& apart, const Vector3f& normal, dou
 }
 
 struct DistanceSum {
-  double sum_m = 0.0;
-  int near = 0, count = 0;
+  double sum_m = 0.0, near = 0.0, all = 0.0;
 
-  void Add(double distance_m, const NearFar& limits) {
-    sum_m += std::min(distance_m, limits.far_m);
-    near += distance_m <= limits.near_m;
-    ++count;
+  void Add(double distance_m, double weight, const NearFar& limits) {
+    sum_m += weight * std::min(distance_m, limits.far_m);
+    if (distance_m <= limits.near_m) near += weight;
+    all += weight;
   }
   // Of nothing: as far as can be, and nothing explained.
-  double MeanOr(double none_m) const { return count == 0 ? none_m : sum_m / count; }
-  double share() const { return count == 0 ? 0.0 : static_cast<double>(near) / count; }
+  double MeanOr(double none_m) const { return all > 0.0 ? sum_m / all : none_m; }
+  double share() const { return all > 0.0 ? near / all : 0.0; }
 };
 
 }  // namespace vitruvia

@@ -183,13 +183,17 @@ std::vector<Vector3f> ShapedSurface(const ShapedBody& body, const Eigen::VectorX
   return rest;
 }
 
-PosedBody::PosedBody(const ShapedBody& body) : body_(body) {
+PosedBody::PosedBody(const ShapedBody& body) : body_(body), area_shares_(body.mean.size(), 0.0f) {
+  float all = 0.0f, edges = 0.0f;
   for (const Triangle& t : body.triangles) {
-    for (int k = 0; k < 3; ++k) {
-      mean_edge_m_ += (body.mean[t[k]] - body.mean[t[(k + 1) % 3]]).norm();
-    }
+    const Vector3f a = body.mean[t[1]] - body.mean[t[0]], b = body.mean[t[2]] - body.mean[t[0]];
+    const float area = a.cross(b).norm();
+    for (const std::int32_t corner : t) area_shares_[static_cast<std::size_t>(corner)] += area;
+    all += area;
+    edges += area * (a.norm() + b.norm() + (b - a).norm()) / 3.0f;
   }
-  mean_edge_m_ /= std::max(1.0, 3.0 * static_cast<double>(body.triangles.size()));
+  mean_edge_m_ = edges / all;
+  for (float& share : area_shares_) share *= static_cast<float>(area_shares_.size()) / (3.0f * all);
 }
 
 void PosedBody::Set(const BodyState& state) {

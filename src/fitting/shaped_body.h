@@ -66,7 +66,10 @@ class PosedBody {
 
   void Set(const BodyState& state);
   const ShapedBody& body() const { return body_; }
-  double mean_edge_m() const { return mean_edge_m_; }  // of the mean shape's triangles
+  double mean_edge_m() const { return mean_edge_m_; }  // of the mean shape, weighted by area
+  // Share of the mean shape's area that a vertex stands for, over the mean of all: a face of many
+  // small triangles counts for no more than a back of few.
+  float AreaShare(int vertex) const { return area_shares_[static_cast<std::size_t>(vertex)]; }
   const std::vector<Vector3f>& vertices() const { return vertices_; }  // world frame
   const std::vector<Vector3f>& normals() const { return normals_; }
   const std::vector<Vector3d>& joints() const { return joints_; }
@@ -81,6 +84,7 @@ class PosedBody {
 
   const ShapedBody& body_;
   double mean_edge_m_ = 0.0;
+  std::vector<float> area_shares_;
   BodyState state_;
   std::array<Matrix3<double>, kBoneCount> rotations_;  // world_from_bone
   std::vector<Vector3d> joints_;                       // posed

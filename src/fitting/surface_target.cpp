@@ -34,7 +34,8 @@ void SurfaceTarget::FindPairs(const PosedBody& body, double cutoff_m, std::vecto
     const auto s = static_cast<std::size_t>(neighbors_[v].index);
     if (points_.normals[s].dot(body.normals()[v]) < kLeastCosine) continue;
     pairs.push_back({static_cast<int>(v), points_.points[s], points_.normals[s],
-                     weight_of(vertices[v], points_.points[s], points_.normals[s])});
+                     body.AreaShare(static_cast<int>(v)) *
+                         weight_of(vertices[v], points_.points[s], points_.normals[s])});
   }
   body_tree_.Build(vertices);
   body_tree_.FindNearest(seekers_.points, cutoff, neighbors_);
@@ -64,14 +65,14 @@ MutualDistance SurfaceTarget::Measure(const PosedBody& body, const NearFar& limi
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     from_body.Add(distance(vertices[v], body.normals()[v], neighbors_[v].index, points_.points,
                            points_.normals),
-                  limits);
+                  body.AreaShare(static_cast<int>(v)), limits);
   }
   body_tree_.Build(vertices);
   body_tree_.FindNearest(seekers_.points, far_m, neighbors_);
   for (std::size_t q = 0; q < seekers_.points.size(); ++q) {
     from_target.Add(distance(seekers_.points[q], seekers_.normals[q], neighbors_[q].index, vertices,
                              body.normals()),
-                    limits);
+                    1.0, limits);
   }
   return {from_target.MeanOr(limits.far_m), from_body.MeanOr(limits.far_m), from_target.share(),
           from_body.share()};

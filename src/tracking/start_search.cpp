@@ -86,10 +86,9 @@ FoundStart StartSearch::Find(const DepthImage& depth) {
     start.message = "not found: the frame holds too few measurements";
     return start;
   }
-  const std::vector<SearchLevel> levels{{&coarse_, &coarse_target, {0}, 48},
-                                        {&coarse_, &coarse_target, {5, 0.6, 0.3, 1.0, false}, 12},
-                                        {&coarse_, &coarse_target, {8, 0.3, 0.12, 0.3, false}, 5},
-                                        {&fine_, &fine_target, {12, 0.15, 0.05, 0.05, false}, 2}};
+  const std::vector<SearchLevel> levels{{&coarse_, &coarse_target, {4, 0.6, 0.3, 1.0, false}, 24},
+                                        {&coarse_, &coarse_target, {8, 0.3, 0.12, 0.3, false}, 8},
+                                        {&fine_, &fine_target, {12, 0.15, 0.05, 0.0, false}, 2}};
   FitPriors priors;
   priors.angle_deviation_deg = settings_.angle_deviation_deg;
   const Matrix3<double> facing_camera = Vector3d(1.0, -1.0, -1.0).asDiagonal();
@@ -112,6 +111,10 @@ FoundStart StartSearch::Find(const DepthImage& depth) {
           ? fmt::format("the second-best pose is {:.0f} % farther", 100.0 * start.margin)
           : "no other pose came near");
   return start;
+}
+
+std::string WithStart(const std::string& start, const std::string& ending) {
+  return ending.empty() ? start : start + "; " + ending;
 }
 
 }  // namespace vitruvia

@@ -54,4 +54,7 @@ class StartSearch {
   PoseFit fine_{fine_body_}, coarse_{coarse_body_};
 };
 
+// The message of the first frame that is tracked: how its start was found, and how it ended.
+std::string WithStart(const std::string& start, const std::string& ending);
+
 }  // namespace vitruvia

@@ -103,9 +103,9 @@ class SchemaCheck {
 
 std::string KindOf(const fs::path& file, const Json& config) {
   const std::map<std::string, std::string> folders = {
-      {"scenes", "scene"},      {"methods", "method"},   {"scans", "scan"},
-      {"learning", "learning"}, {"subjects", "subject"}, {"skeletons", "skeleton"},
-      {"motions", "motion"}};
+      {"scenes", "scene"},      {"methods", "method"},       {"scans", "scan"},
+      {"learning", "learning"}, {"subjects", "subject"},     {"skeletons", "skeleton"},
+      {"motions", "motion"},    {"imports", "import_meshes"}};
   const fs::path configs = fs::path(VITRUVIA_SOURCE_DIR) / "configs";
   const auto found = folders.find(file.lexically_relative(configs).begin()->string());
   if (found != folders.end()) return found->second;

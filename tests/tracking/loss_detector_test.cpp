@@ -77,5 +77,25 @@ TEST(LossDetector, IsNotMisledByAnObjectBeforeTheBody) {
   EXPECT_FALSE(IsClearlyBetter({0.9, 0.6, 0.9}, {0.2, 0.93, 0.9}, 0.1));    // the pose of the post
 }
 
+TEST(LossDetector, ReportsDoubtfulFramesWithoutSearching) {
+  LossDetector detector{RelocalizationSettings{.agreement_threshold = 0.7, .doubt_threshold = 0.9}};
+  detector.Assess({1.0, 1.0, 1.0});
+  EXPECT_EQ(detector.Assess({1.0, 0.85, 1.0}), FrameVerdict::kAgrees);
+  EXPECT_TRUE(detector.is_lost());
+  EXPECT_EQ(detector.Assess({1.0, 0.95, 1.0}), FrameVerdict::kAgrees);
+  EXPECT_FALSE(detector.is_lost());
+}
+
+// What the first frame shows may be a post.
+TEST(LossDetector, DoesNotTakeABadFirstFrameForUsualBelowTheLeastLevel) {
+  LossDetector detector{RelocalizationSettings{.least_usual = 0.9}};
+  EXPECT_EQ(detector.Assess({1.0, 0.5, 1.0}), FrameVerdict::kSearch);
+  EXPECT_EQ(detector.Assess({1.0, 0.5, 1.0}), FrameVerdict::kDisagrees);
+  EXPECT_TRUE(detector.is_lost());
+  detector.NoteFound({0.6, 0.98, 1.0});  // the person, whose cloud holds the post as well
+  EXPECT_EQ(detector.Assess({0.6, 0.98, 1.0}), FrameVerdict::kAgrees);
+  EXPECT_FALSE(detector.is_lost());
+}
+
 }  // namespace
 }  // namespace vitruvia

@@ -13,6 +13,7 @@ namespace {
 constexpr int kCoarseSeekers = 500, kFineSeekers = 2000;
 constexpr DepthTargetSettings kCoarseFrame{80, 2000, 400};
 constexpr DepthTargetSettings kFineFrame{160, 6000, 1500};
+constexpr double kLowest_m = 0.4, kHighest_m = 2.8;  // a child that crouches; raised arms
 constexpr double kMostUnusual = 3.0;  // shape of known attributes, standard deviations
 
 // The space's first coefficients, and as the last one a uniform scale about the vertices' mean.
@@ -164,11 +165,18 @@ Registration Registrar::Search(const Matrix3<double>& world_from_front, double h
 }
 
 Registration Registrar::Find(const TriangleMesh& surface) {
+  const double height_m = HeightOf(surface.vertices);
+  if (height_m < kLowest_m || height_m > kHighest_m) {
+    Registration none;
+    none.problem = fmt::format(
+        "no person: the surface is {:.4g} m high, expected {:g} to {:g} m. Is it y up, in metres?",
+        height_m, kLowest_m, kHighest_m);
+    return none;
+  }
   const OrientedPoints points = SampleSurface(surface, settings_.surface_points);
   SurfaceTarget coarse_target(points, kCoarseSeekers, settings_.clothing);
   SurfaceTarget fine_target(points, kFineSeekers, settings_.clothing);
-  return Search(Matrix3<double>::Identity(), HeightOf(surface.vertices), coarse_target,
-                fine_target);
+  return Search(Matrix3<double>::Identity(), height_m, coarse_target, fine_target);
 }
 
 Registration Registrar::Find(const DepthImage& depth, const PinholeCamera& camera) {

@@ -133,8 +133,8 @@ TrackResult Dynamic::TrackFrame(const DepthFrame& frame) {
   Require(session_ != nullptr, "TrackFrame called before Start");
   ReadClouds(frame);
   FrameFit fit;
+  const bool is_first = !session_->placed;
   if (!session_->fine.cloud.points.empty()) {
-    const bool is_first = !session_->placed;
     if (is_first) FindFirstPose(frame);
     if (session_->placed) {
       fit = FitPose(is_first);
@@ -142,7 +142,11 @@ TrackResult Dynamic::TrackFrame(const DepthFrame& frame) {
       session_->fine.PoseVertices(session_->pose, session_->team, session_->clock);
     }
   }
-  return Result(fit);
+  TrackResult result = Result(fit);
+  if (is_first && session_->placed && session_->start_search) {
+    result.message = WithStart(session_->start_message, result.message);
+  }
+  return result;
 }
 
 void Dynamic::ReadClouds(const DepthFrame& frame) {

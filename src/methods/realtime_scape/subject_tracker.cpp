@@ -47,6 +47,7 @@ TrackResult SubjectTracker::TrackFrame(const DepthFrame& frame) {
   history_ = Advanced(*history_, model_, fit.pose, fit.counts, settings_.search.seen_share);
   fit.times += clock_.times();
   Ending ending = EndingOf(fit);
+  if (is_first && start_search_) ending.message = WithStart(start_message_, ending.message);
   return Result(std::move(fit), std::move(ending));
 }
 
