@@ -187,7 +187,7 @@ TEST_F(MeshImport, ARestMeshThatIsNotTheSubjectIsRefusedBeforeTheFirstFrame) {
 }
 
 TEST_F(MeshImport, ABodyOutOfTheImageIsTold) {
-  WriteFrames(".obj", [](const Vector3f& v) { return v + Vector3f(0.0f, 1.0f, 0.0f); });
+  WriteFrames(".obj", [](const Vector3f& v) -> Vector3f { return v + Vector3f(0.0f, 1.0f, 0.0f); });
   const CallResult call = Import();
   EXPECT_EQ(call.code, 0) << call.error;
   EXPECT_THAT(call.error, HasSubstr("the body leaves the image in 4 of 4 frames"));
