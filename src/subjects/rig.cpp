@@ -339,7 +339,10 @@ void RigSettings::Describe(Fields& f) {
             .unit = "m",
             .min = 1e-6,
             .max = 1.0,
-            .origin = Origin::kGuessed});
+            .origin = Origin::kTuned,
+            .source = "on a captured man: at 0.02 joints between bones that hardly move against "
+                      "each other wander by 7 cm, and Realtime SCAPE loses him in 69 of 175 "
+                      "frames; at 0.005 in 8"});
 }
 
 Rig RigMeshes(const std::vector<TriangleMesh>& frames, Registrar& registrar,

@@ -24,7 +24,7 @@ struct RigSettings {
   skinning::Settings weights;  // of a sequence
   int smoothing_steps = 10;
   int learning_frames = 60;
-  double joint_slack_m = 0.02;
+  double joint_slack_m = 0.005;
   double rest_stiffness = 3.0;
 
   void Describe(Fields& fields);

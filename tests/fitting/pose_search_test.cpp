@@ -53,7 +53,7 @@ TEST(PoseSearch, FindsAPersonOnASurface) {
                   {&fine_fit, &fine_target, {15, 0.1, 0.02, 0.01, false}, 2}},
                  FitPriors(), NearFar());
   EXPECT_LT(MeanJointDistance(fine, found.best.state, truth), 0.005);
-  EXPECT_GT(found.best.distance.target_explained, 0.999);
+  EXPECT_GT(found.best.distance.target_explained, 0.98);
   EXPECT_GT(found.margin, 0.5);
 }
 
