@@ -38,6 +38,9 @@ Vector3f Position(const std::vector<std::string_view>& words, const TextLines& l
   for (std::size_t i = 1; i < words.size(); ++i) {
     const auto number = ParseNumber(words[i]);
     if (!number) lines.Fail(fmt::format("expected a number, got '{}'", words[i]));
+    if (i == 4 && count != 6 && *number != 1.0)
+      lines.Fail(fmt::format("a vertex of weight {}, expected 1 (rational surfaces are not read)",
+                             words[i]));
     if (i <= 3) position[static_cast<Eigen::Index>(i - 1)] = static_cast<float>(*number);
   }
   return position;

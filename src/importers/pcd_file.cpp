@@ -207,7 +207,7 @@ void ReadAscii(std::string_view text, const Header& header, const std::array<Pla
       throw DataError(
           fmt::format("{}: cut short: expected {} lines of points", where, points.size()));
     const std::vector<std::string_view> words = lines.Words();
-    if (words.size() < header.Numbers())
+    if (words.size() != header.Numbers())
       lines.Fail(fmt::format("expected {} numbers, got {}", header.Numbers(), words.size()));
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::string_view word = words[places[axis].numbers];
@@ -215,6 +215,10 @@ void ReadAscii(std::string_view text, const Header& header, const std::array<Pla
       if (!value) lines.Fail(fmt::format("expected a number, got \"{}\"", word));
       point[static_cast<int>(axis)] = static_cast<float>(*value);
     }
+  }
+  while (lines.Next()) {
+    if (!lines.Words().empty())
+      lines.Fail(fmt::format("expected {} lines of points, got more", points.size()));
   }
 }
 

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "core/error.h"
+#include "core/files.h"
 #include "support/temporary_folder.h"
 
 namespace vitruvia {
@@ -103,8 +104,11 @@ TEST(ReadExperiment, NamesARecordWithANumberThatTheCatalogueDoesNotKnow) {
   WriteExperimentRecord(folder.path(), experiment);
   RunRecord run;
   run.run_id = "a";
-  run.summary = {{"l2_meen_m", 0.01}};
+  run.summary = {{"l2_mean_m", 0.01}};
   WriteRunRecord(folder.path(), run);
+  Json stored = ReadJsonFile(folder / "a/record.json");
+  stored["summary"] = {{"l2_meen_m", 0.01}};
+  WriteWholeFile(folder / "a/record.json", stored.dump());
   const ReportedExperiment read = ReadExperiment(folder.path());
   EXPECT_FALSE(read.runs.at(0).record.has_value());
   EXPECT_THAT(read.runs.at(0).problem,

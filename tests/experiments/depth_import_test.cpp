@@ -129,7 +129,7 @@ class DepthImport : public testing::Test {
   static Image<float> Box(int frame) {
     Image<float> image(80, 60, 4000.0f);
     for (int v = 5; v < 55; ++v) {
-      for (int u = 4 * frame; u < 4 * frame + 14; ++u) image(u, v) = 2000.0f;
+      for (int u = 4 * frame; u < 4 * frame + 14; ++u) image(u, v) = v < 30 ? 2000.0f : 2020.0f;
     }
     return image;
   }
@@ -239,7 +239,7 @@ TEST_F(DepthImport, BadInputIsNamedAndNothingIsWritten) {
   config_["cutout"] = {{"background", {{"source", "empty_frames"}}}};
   ExpectRefused(ExitCode::kBadConfiguration, {"names neither images nor a count"});
   config_ = good;
-  config_["invalid"] = {2000, 4000};
+  config_["invalid"] = {2000, 2020, 4000};
   ExpectRefused(ExitCode::kBadData, {"holds a measurement", "empty frames"});
   config_ = good;
   WriteWholeFile(files_ / "boxes/007.png", "damaged");

@@ -1,11 +1,9 @@
 // The smallest model that a scene needs.
-#include "experiments/studies/sufficient.h"
-
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "core/files.h"
-#include "support/temporary_folder.h"
+#include "experiments/command_line.h"
 
 namespace vitruvia {
 namespace {
@@ -19,23 +17,20 @@ class Sufficient : public testing::Test {
     Json scene = ReadJsonFile(kConfigs / "scenes" / "small.json");
     scene["motion"]["file"] = (kConfigs / "motions" / "arm_wave.json").string();
     scene["frames"] = 6;
-    Write("scene.json", scene);
-    Write("method.json", {{"method", "realtime_scape"}});
+    files_.Write("scene.json", scene);
+    files_.Write("method.json", {{"method", "realtime_scape"}});
   }
 
-  void Write(const std::string& name, const Json& json) {
-    WriteWholeFile(folder_ / name, json.dump());
+  CallResult Find(const Json& variants, const std::string& metric) {
+    files_.Write("experiment.json", {{"title", "Test"},
+                                     {"scenes", {"scene.json"}},
+                                     {"methods", {"method.json"}},
+                                     {"variants", variants}});
+    return CallVitruvia({"sufficient", files_.File("experiment.json"), "--metric", metric, "-o",
+                         files_.File("out")});
   }
 
-  Sufficiency Find(const Json& variants, const SufficiencySettings& settings = {}) {
-    Write("experiment.json", {{"title", "Test"},
-                              {"scenes", {"scene.json"}},
-                              {"methods", {"method.json"}},
-                              {"variants", variants}});
-    return FindSufficient(folder_ / "experiment.json", settings, folder_ / "out", VITRUVIA_PROGRAM);
-  }
-
-  TemporaryFolder folder_;
+  SmallExperiment files_;
 };
 
 Json Part(const std::string& name, const Json& method_settings) {
@@ -43,25 +38,28 @@ Json Part(const std::string& name, const Json& method_settings) {
 }
 
 TEST_F(Sufficient, NeverLeavesOutWhatTheErrorNeeds) {
-  const Sufficiency result =
+  const CallResult call =
       Find({Part("surface", {{"fit", {{"surface_weight", 0}, {"pair_weight", 0}}}}),
             Part("nothing", {{"stopping", {{"first_frame_iterations", 29}}}})},
-           {.metric = "l2_mean_m"});
-  EXPECT_DOUBLE_EQ(result.full.error_ratio, 1.0);
-  ASSERT_FALSE(result.rounds.empty());
-  for (const SufficiencyRound& round : result.rounds) {
-    for (const SufficiencyRound::Trial& trial : round.trials) {
-      EXPECT_EQ(trial.is_sufficient, trial.part == "nothing") << trial.part;
-      EXPECT_EQ(trial.cost.error_ratio <= 1.05, trial.is_sufficient);
+           "l2_mean_m");
+  ASSERT_EQ(call.code, 0) << call.error;
+  const Json result = ReadJsonFile(files_ / "out/sufficient.json");
+  EXPECT_DOUBLE_EQ(result.at("full").at("error_ratio").get<double>(), 1.0);
+  ASSERT_FALSE(result.at("rounds").empty());
+  for (const Json& round : result.at("rounds")) {
+    for (const Json& trial : round.at("trials")) {
+      EXPECT_EQ(trial.at("is_sufficient"), trial.at("part") == "nothing") << trial;
+      EXPECT_EQ(trial.at("error_ratio").get<double>() <= 1.05, trial.at("is_sufficient"));
     }
-    EXPECT_NE(round.left_out, "surface");
+    EXPECT_NE(round.at("left_out"), "surface");
   }
-  for (const std::string& part : result.left_out) EXPECT_EQ(part, "nothing");
+  for (const Json& part : result.at("left_out")) EXPECT_EQ(part, "nothing");
 }
 
 TEST_F(Sufficient, RefusesAnExperimentWithoutPartsAndMetricsThatRunsLack) {
-  EXPECT_THROW(Find(Json::array()), ConfigError);
-  EXPECT_THROW(Find({Part("axis", {{"axis_weight", 0}})}, {.metric = "height"}), ConfigError);
+  EXPECT_EQ(Find(Json::array(), "l2_mean_m").code, static_cast<int>(ExitCode::kBadConfiguration));
+  EXPECT_EQ(Find({Part("axis", {{"axis_weight", 0}})}, "height").code,
+            static_cast<int>(ExitCode::kBadConfiguration));
 }
 
 }  // namespace

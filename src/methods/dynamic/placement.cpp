@@ -45,6 +45,11 @@ TreeStart StartFrom(const KinematicTree& tree, const BoneTransforms& camera_from
   constexpr double kDamping = 1e-3;
   const int count = tree.joint_count();
   TreeStart start{camera_from_rest.front(), Eigen::VectorXd::Zero(count)};
+  // The pelvis is in place already.
+  const std::vector<int>& root = tree.ChainOf(static_cast<int>(BoneId::kPelvis));
+  const auto is_free = [&](int joint) {
+    return std::find(root.begin(), root.end(), joint) == root.end();
+  };
   TreePose pose;
   for (int i = 0; i < kIterations; ++i) {
     tree.Pose(start.camera_from_start, start.theta, pose);
@@ -55,10 +60,11 @@ TreeStart StartFrom(const KinematicTree& tree, const BoneTransforms& camera_from
                                    pose.camera_from_rest[bone].ToRigid().rotation.transpose();
       const Vector3d wanted = LogSo3<double>(turn);
       for (const int j : tree.ChainOf(bone)) {
+        if (!is_free(j)) continue;
         const Vector3d axis = pose.twists[j].head<3>();
         right[j] += axis.dot(wanted);
         for (const int k : tree.ChainOf(bone)) {
-          normal(j, k) += axis.dot(pose.twists[k].head<3>());
+          if (is_free(k)) normal(j, k) += axis.dot(pose.twists[k].head<3>());
         }
       }
     }
