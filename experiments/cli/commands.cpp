@@ -26,11 +26,13 @@
 #include "experiments/cli/problems.h"
 #include "experiments/cli/regress_command.h"
 #include "experiments/cli/rescore_command.h"
+#include "experiments/cli/rig_command.h"
 #include "experiments/cli/run_command.h"
 #include "experiments/cli/run_one_command.h"
 #include "experiments/cli/scan_command.h"
 #include "experiments/cli/schema_command.h"
 #include "experiments/cli/status_command.h"
+#include "experiments/cli/subject_command.h"
 #include "experiments/cli/submit_command.h"
 #include "experiments/cli/sufficient_command.h"
 #include "experiments/cli/track_command.h"
@@ -132,6 +134,8 @@ void AddCommands(CLI::App& app, Arguments& a) {
   AddLearnCommand(app);
   AddScanCommand(app);
   AddFitCommand(app);
+  AddRigCommand(app);
+  AddSubjectCommand(app);
 
   CLI::App* explain =
       app.add_subcommand("explain", "Say what a setting or a metric means; without KEY list all");
@@ -155,9 +159,8 @@ int RunCommandLine(int argc, const char* const* argv) {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {
       throw ConfigError(
-          "expected a command: list, synth, import, verify, learn, scan, fit, track, run, status, "
-          "submit, "
-          "rescore, export, report, index, compare, "
+          "expected a command: list, synth, import, verify, learn, scan, fit, rig, subject, track, run, "
+          "status, submit, rescore, export, report, index, compare, "
           "sufficient, regress, schema or explain (--help)");
     }
     if (std::fflush(stdout) != 0) FailToWrite("standard output", errno);

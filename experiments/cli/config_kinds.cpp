@@ -8,10 +8,12 @@
 #include "experiments/plan/run_plan.h"
 #include "experiments/studies/shape_study.h"
 #include "experiments/studies/weight_study.h"
+#include "importers/depth_import.h"
 #include "importers/eval_import.h"
 #include "importers/mesh_import.h"
 #include "records/estimate.h"
 #include "subjects/fitted_subject.h"
+#include "subjects/rig.h"
 #include "subjects/scan.h"
 #include "synth/motions/keyframes_file.h"
 
@@ -42,9 +44,12 @@ const std::vector<ConfigKind>& ConfigKinds() {
         {"learning", "what is learnt from a population", VisitDefaults<LearningSettings>, nullptr},
         {"fit", "how a shape is fitted to a scan", VisitDefaults<IntrinsicShapeSettings>, nullptr},
         {"subject", "a subject that is scanned and fitted", VisitSubjectFile, nullptr},
+        {"rig", "how meshes are made a subject", VisitDefaults<RigSettings>, nullptr},
         {"skeleton", "a kinematic skeleton", VisitSkeletonFile, nullptr},
         {"import_meshes", "mesh files made into a sequence", VisitDefaults<MeshSequenceSettings>,
          nullptr},
+        {"import_depth", "a recording of a depth camera made into a sequence",
+         VisitDefaults<DepthImportSettings>, nullptr},
         {"import_eval", "Stanford EVAL files made into a sequence",
          VisitDefaults<EvalImportSettings>, nullptr},
         {"motion", "key frames of a motion", VisitMotionFile, nullptr},

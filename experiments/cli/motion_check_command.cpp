@@ -7,6 +7,7 @@
 
 #include "config/json_settings.h"
 #include "experiments/cli/motion_check_text.h"
+#include "math/rigid.h"
 #include "reports/figures/motion_strip.h"
 #include "synth/bodies/body_source.h"
 #include "synth/scene/scene.h"

@@ -1,8 +1,11 @@
 #include "experiments/cli/regress_command.h"
 
+#include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <filesystem>
 #include <memory>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/chrono.h>
@@ -19,7 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct RegressArguments {
-  fs::path config, baseline, output;
+  fs::path config, baseline, output, baseline_program;
   std::string only, reason;
   bool update = false, stored = false;
 };
@@ -52,12 +55,21 @@ void CheckArguments(const RegressArguments& a) {
     throw ConfigError("regress: --update renews the whole baseline; --only cannot go with it");
   if (!a.update && !a.reason.empty())
     throw ConfigError("regress: --reason says why a baseline is renewed; expected --update too");
+  if (!a.baseline_program.empty() && (a.update || a.stored)) {
+    throw ConfigError(
+        "regress: --baseline-program runs beside a new measurement; neither --update nor --stored "
+        "can go with it");
+  }
+  if (!a.baseline_program.empty() && access(a.baseline_program.c_str(), X_OK) != 0) {
+    throw ConfigError(fmt::format("regress: --baseline-program {}: {}; expected an executable file",
+                                  a.baseline_program.string(), std::strerror(errno)));
+  }
 }
 
 MeasuredRuns Measured(const RegressArguments& a, const RegressSettings& settings,
                       const GatePlaces& places) {
   const std::vector<GatedExperiment> experiments = Selected(settings, a.only);
-  if (!a.stored) MeasureRepeats(experiments, places.output, places.shared);
+  if (!a.stored) MeasureRepeats(experiments, places.output, places.shared, a.baseline_program);
   return ReadRepeats(experiments, places.output);
 }
 
@@ -111,12 +123,15 @@ void Regress(const RegressArguments& a) {
   const MeasuredRuns measured = Measured(a, settings, places);
   if (a.update) return Renew(a, places, measured);
 
-  const Judgement judgement = Judge(baseline, measured, settings.tolerances, history, commit);
-  const GateOccasion occasion{settings.title,      NowUtc(), commit,  GetMachineInfo().cpu,
-                              settings.tolerances, baseline, measured};
+  const SpeedReference reference = ReadReference(Selected(settings, a.only), places.output);
+  const Judgement judgement =
+      Judge(baseline, measured, reference, settings.tolerances, history, commit);
+  const GateOccasion occasion{settings.title,      NowUtc(), commit,   GetMachineInfo().cpu,
+                              settings.tolerances, baseline, measured, reference};
   WriteOccasion(places, occasion, judgement);
   if (!a.stored) {
-    history.push_back({occasion.date, commit, static_cast<int>(judgement.Code()), measured.runs});
+    history.push_back(
+        {occasion.date, commit, occasion.cpu, static_cast<int>(judgement.Code()), measured.runs});
     WriteHistory(places.history, history);
   }
   if (judgement.Code() != ExitCode::kSuccess)
@@ -131,6 +146,10 @@ void AddRegressCommand(CLI::App& app) {
       app.add_subcommand("regress", "Measure again and compare accuracy and speed with a baseline");
   regress->add_option("CONFIG", a->config, "what to measure: configs/nightly.json")->required();
   regress->add_option("--baseline", a->baseline, "folder of baselines")->required();
+  regress->add_option(
+      "--baseline-program", a->baseline_program,
+      "program of the baseline's commit: it runs in turn with this one, and speed is "
+      "judged by the pairs; without it only accuracy is judged");
   regress->add_option("-o,--output", a->output, "folder of the results; without it out/NAME");
   regress->add_option("--only", a->only, "only experiments whose name contains this text");
   regress->add_flag("--update", a->update, "replace the baseline by what is measured");

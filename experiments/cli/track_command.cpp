@@ -10,6 +10,7 @@
 #include "experiments/run/frame_failures.h"
 #include "experiments/run/tracking_run.h"
 #include "scoring/score.h"
+#include "verification/verification.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -24,6 +25,8 @@ void Track(const TrackArguments& a) {
   const MethodConfig method = ReadMethodConfig(ReadJsonFile(a.method), {a.method, ""});
   const SequenceReader sequence(a.sequence);
   const BodyModel subject = a.subject.empty() ? sequence.subject() : ReadBodyModel(a.subject);
+  RequireConsistent(sequence, FrameSelection::kSample, a.sequence);
+  if (!a.subject.empty()) RequireConsistent(subject, a.subject);
   const auto as_stored = [](DepthFrame&) {};
   TrackSequence(sequence, method, subject, as_stored, a.output);
   RunRecord record;

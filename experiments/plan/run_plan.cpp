@@ -28,12 +28,27 @@ std::vector<Recording> RecordingsOf(const ExperimentSettings& settings) {
   return recordings;
 }
 
+// What a scene or a score is without is left out: runs keep their names when settings are added.
+Json ResolvedScene(const SceneSettings& settings) {
+  Json scene = WriteSettings(settings);
+  if (!settings.room.IsThere()) scene.erase("room");
+  if (settings.views.empty()) scene.erase("views");
+  return scene;
+}
+
+Json ResolvedScore(const ScoreSettings& settings) {
+  Json score = WriteSettings(settings);
+  if (settings.against_observation == ScoreSettings().against_observation)
+    score.erase("against_observation");
+  return score;
+}
+
 void TakeScene(const fs::path& scene_file, const VariantSettings& variant, RunPlan& run) {
   run.scene = scene_file.stem().string();
   run.scene_settings = ReadScene(scene_file, variant.scene);
   run.scene_settings.seed = run.seed;
   run.frames = run.scene_settings.frames;
-  run.resolved["scene"] = WriteSettings(run.scene_settings);
+  run.resolved["scene"] = ResolvedScene(run.scene_settings);
 }
 
 void TakeSequence(const fs::path& folder, const VariantSettings& variant, RunPlan& run) {
@@ -77,7 +92,7 @@ RunPlan PlanRun(const Recording& recording, const fs::path& method_file,
   run.method =
       ReadMethodConfig(Merged(ReadJsonFile(method_file), variant.method), {method_file, ""});
   run.resolved = {{"method", {{"method", run.method.method}, {"settings", run.method.settings}}},
-                  {"score", WriteSettings(score)}};
+                  {"score", ResolvedScore(score)}};
   if (recording.is_stored) {
     TakeSequence(recording.path, variant, run);
   } else {

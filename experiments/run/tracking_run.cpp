@@ -9,7 +9,10 @@
 #include "core/progress.h"
 #include "core/timer.h"
 #include "experiments/plan/run_plan.h"
+#include "geometry/mesh.h"
 #include "scoring/score.h"
+#include "tracking/astray.h"
+#include "verification/verification.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -20,6 +23,28 @@ fs::path ObtainSequence(const RunPlan& run, const WorkFolders& work) {
   const CachedFolder kept = SequenceOf(run, work.sequences);
   kept.GetOrBuild([&run](const fs::path& made) { SynthesizeSequence(run.scene_settings, made); });
   return kept.path();
+}
+
+// What whoever reads the run's numbers should know: from the making of the sequence, and from its
+// verification. DataError if the sequence, or a subject that does not come with it, cannot be true.
+std::vector<std::string> WarningsOf(const RunPlan& run, const SequenceReader& sequence) {
+  const Json& made = sequence.info().provenance;
+  std::vector<std::string> warnings;
+  if (made.contains("warnings") && made.at("warnings").is_array()) {
+    for (const Json& warning : made.at("warnings")) {
+      if (warning.is_string()) warnings.push_back(warning.get<std::string>());
+    }
+  }
+  const auto add = [&](const std::vector<std::string>& found) {
+    for (const std::string& warning : found) {
+      if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
+        warnings.push_back(warning);
+    }
+  };
+  add(RequireConsistent(sequence, FrameSelection::kSample, sequence.folder()));
+  if (!run.subject_folder.empty())
+    add(RequireConsistent(ReadBodyModel(run.subject_folder), run.subject_folder));
+  return warnings;
 }
 
 BodyModel ObtainSubject(const RunPlan& run, const SequenceReader& sequence,
@@ -77,6 +102,7 @@ void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
   const SequenceInfo& info = sequence.info();
   ForgetPeakMemory();
   const double before_mb = ResidentMemory_mb();
+  const double diagonal_m = BoundingBoxDiagonal(subject.rest.vertices);
   const std::unique_ptr<Tracker> tracker = MakeTracker(method);
   EstimateWriter writer(folder, subject.rest);
   Progress progress("track " + method.method, info.frames);
@@ -85,8 +111,10 @@ void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
     DepthFrame frame{i, i / info.fps, sequence.ReadDepth(i)};
     prepare(frame);
     const Stopwatch watch;
-    const TrackResult result = tracker->TrackFrame(frame);
-    writer.Append(result, watch.ElapsedMs());
+    TrackResult result = tracker->TrackFrame(frame);
+    const double frame_ms = watch.ElapsedMs();
+    MarkAstray(frame, info.camera, diagonal_m, result);
+    writer.Append(result, frame_ms);
     progress.Advance();
   }
   writer.Finish(std::max(0.0, PeakMemory_mb() - before_mb));
@@ -95,11 +123,13 @@ void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
 RunRecord CarryOutTracking(const PlannedRun& planned, const fs::path& run_folder) {
   const RunPlan run = ReadRunPlan(planned);
   const SequenceReader sequence(ObtainSequence(run, planned.work));
+  std::vector<std::string> warnings = WarningsOf(run, sequence);
   Track(run, sequence, planned.work, run_folder / "estimate");
   RunRecord record = RecordOf(run, planned.experiment);
   record.sequence_folder =
       fs::absolute(sequence.folder()).lexically_relative(fs::absolute(run_folder.parent_path()));
   record.sequence_hash = sequence.hash();
+  record.warnings = std::move(warnings);
   const EstimateReader estimate(run_folder / "estimate");
   ScoreRun(sequence, estimate, run.score, record);
   WriteWholeFile(run_folder / "log", LogOf(estimate));

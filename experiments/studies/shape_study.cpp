@@ -9,6 +9,7 @@
 #include "core/timer.h"
 #include "experiments/studies/held_out_people.h"
 #include "geometry/surface_map.h"
+#include "math/rigid.h"
 #include "math/rigid_fit.h"
 #include "math/statistics.h"
 #include "records/surface_strips.h"

@@ -47,10 +47,12 @@ double NumberOf(const RunRecord& record, const std::string& key) {
 
 class Search {
  public:
-  Search(const fs::path& file, const SufficiencySettings& settings, const fs::path& folder)
+  Search(const fs::path& file, const SufficiencySettings& settings, const fs::path& folder,
+         const fs::path& program)
       : file_(file),
         settings_(settings),
         folder_(folder),
+        program_(program),
         experiment_(ReadSettingsFile<ExperimentSettings>(file)) {
     if (FindMetric(settings.metric).better != Better::kLower) {
       throw ConfigError(
@@ -73,7 +75,7 @@ class Search {
     const ExperimentPlan plan = PlanExperiment(settings, file_);
     const std::vector<PlannedRun> runs =
         PlannedRuns(plan, {folder_ / "sequences", folder_ / "learned"});
-    const ExperimentOutcome outcome = CarryOutRuns(runs, settings_.jobs, folder_);
+    const ExperimentOutcome outcome = CarryOutRuns(runs, settings_.jobs, folder_, program_);
     if (outcome.failed > 0) {
       throw RunError(fmt::format("sufficient: {} of {} runs failed; see {}", outcome.failed,
                                  runs.size(), folder_.string()));
@@ -103,7 +105,7 @@ class Search {
 
   fs::path file_;
   SufficiencySettings settings_;
-  fs::path folder_;
+  fs::path folder_, program_;
   ExperimentSettings experiment_;
   Outcomes full_;
 };
@@ -115,8 +117,8 @@ Json ToJson(const ModelCost& cost) {
 }  // namespace
 
 Sufficiency FindSufficient(const fs::path& experiment_file, const SufficiencySettings& settings,
-                           const fs::path& folder) {
-  Search search(experiment_file, settings, folder);
+                           const fs::path& folder, const fs::path& program) {
+  Search search(experiment_file, settings, folder, program);
   Sufficiency result;
   result.full = result.smallest = search.CostsOf({Without({})}).front();
   Parts gone, left = search.parts();

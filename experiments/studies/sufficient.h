@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/plan/experiment_config.h"
+#include "experiments/run/runner.h"
 
 namespace vitruvia {
 
@@ -42,10 +43,11 @@ struct Sufficiency {
 
 // The experiment's variants are the parts: each one's overrides leave something out. The full model
 // is the experiment without any of them. Runs are kept in `folder`, and found again by the next
-// call. ConfigError if there are no parts or runs lack the metric; RunError if a run fails.
+// call; `program` carries them out (runner.h). ConfigError if there are no parts or runs lack the
+// metric; RunError if a run fails.
 Sufficiency FindSufficient(const std::filesystem::path& experiment_file,
-                           const SufficiencySettings& settings,
-                           const std::filesystem::path& folder);
+                           const SufficiencySettings& settings, const std::filesystem::path& folder,
+                           const std::filesystem::path& program = kThisProgram);
 
 Json ToJson(const Sufficiency& result, const SufficiencySettings& settings);
 

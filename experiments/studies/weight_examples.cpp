@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "geometry/mesh_io.h"
+#include "math/rigid.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;

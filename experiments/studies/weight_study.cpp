@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "experiments/studies/held_out_people.h"
 #include "learning/skinning/fit_errors.h"
+#include "math/rigid.h"
 #include "math/statistics.h"
 #include "records/surface_strips.h"
 

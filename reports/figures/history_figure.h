@@ -10,7 +10,7 @@
 namespace vitruvia {
 
 // One figure for each experiment of the history, its runs as lines over the occasions: the main
-// error, and the calibrated time where there is one. Empty for an empty history.
+// error, and the time where there is one. Empty for an empty history.
 std::vector<Figure> MakeHistoryFigures(const std::vector<HistoryEntry>& history);
 
 }  // namespace vitruvia

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "math/rigid.h"
+#include "math/vector.h"
 #include "reports/drawing/canvas.h"
 
 namespace vitruvia {

@@ -33,16 +33,21 @@ std::string VerdictCell(Verdict verdict) {
 
 bool HasFrames(const RunRecord* run) { return !run->frames.empty(); }
 
-// Once for each different text: runs of one sequence lack the same truth.
-std::string NotScoredText(const std::vector<const RunRecord*>& runs) {
+// What lacks truth and what was warned about, once for each different text: runs of one sequence
+// have it in common.
+std::string CaveatsText(const std::vector<const RunRecord*>& runs) {
   std::string html;
   std::set<std::string> told;
+  const auto add = [&](const char* kind, const RunRecord& run, const std::string& text) {
+    const std::string line =
+        fmt::format("<p><b>{}</b> · {}</p>", kind, Escaped(fmt::format("{}: {}", run.scene, text)));
+    if (told.insert(line).second) html += line;
+  };
   for (const RunRecord* run : runs) {
     const auto found = run->summary.find("not_scored");
-    if (found == run->summary.end() || !found->is_string()) continue;
-    const std::string text = fmt::format("{}: {}", run->scene, found->get<std::string>());
-    if (told.insert(text).second)
-      html += fmt::format("<p><b>Not scored</b> · {}</p>", Escaped(text));
+    if (found != run->summary.end() && found->is_string())
+      add("Not scored", *run, found->get<std::string>());
+    for (const std::string& warning : run->warnings) add("Warning", *run, warning);
   }
   return html;
 }
@@ -60,7 +65,7 @@ std::string Header(const ReportedExperiment& experiment) {
       "<nav>{}<a href=\"#papers\">Paper and ours</a>{}<a href=\"#pictures\">Pictures</a>{}"
       "<a href=\"#runs\">All runs</a><a href=\"#provenance\">Provenance</a></nav></header>\n",
       Escaped(experiment.record.name), Escaped(experiment.record.title),
-      Escaped(experiment.record.description), status, NotScoredText(runs),
+      Escaped(experiment.record.description), status, CaveatsText(runs),
       ContendersOf(experiment).size() < 2 ? "" : "<a href=\"#summary\">Variants</a>",
       tracked ? "<a href=\"#plots\">Plots</a>" : "",
       tracked ? "<a href=\"#steps\">Time per step</a>" : "");

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "core/progress.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 #include "records/surface_strips.h"
 #include "reports/drawing/color_maps.h"
 #include "reports/drawing/mesh_view.h"

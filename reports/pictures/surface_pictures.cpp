@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/error.h"
-#include "records/surface_strips.h"
+#include "math/rotation.h"
 #include "reports/drawing/color_maps.h"
 
 namespace vitruvia {
@@ -109,18 +109,7 @@ ColorImage DrawPanel(const SurfacePanel& panel, const PictureWindow& window, dou
 
 }  // namespace
 
-void DrawSurfaceStrips(const std::filesystem::path& run_folder, MeshView& view, RunPictures& run) {
-  std::vector<SurfaceStrip> strips;
-  try {
-    strips = ReadSurfaceStrips(run_folder);
-  } catch (const DataError& error) {
-    run.problem = error.what();
-    return;
-  }
-  if (strips.empty()) {
-    run.problem = "the run left no surfaces";
-    return;
-  }
+void DrawSurfaceStrips(const std::vector<SurfaceStrip>& strips, MeshView& view, RunPictures& run) {
   const Eigen::AlignedBox3f box = BoxAround(strips);
   const Vector3f middle = box.center();
   const double pixels_per_m = ViewCamera().fx / kViewDistance_m;
@@ -138,6 +127,21 @@ void DrawSurfaceStrips(const std::filesystem::path& run_folder, MeshView& view, 
     for (const SurfacePanel& panel : strip.panels)
       drawn.pictures.push_back(DrawPanel(panel, window, run.error_scale_m, view));
   }
+}
+
+void DrawSurfaceStrips(const std::filesystem::path& run_folder, MeshView& view, RunPictures& run) {
+  std::vector<SurfaceStrip> strips;
+  try {
+    strips = ReadSurfaceStrips(run_folder);
+  } catch (const DataError& error) {
+    run.problem = error.what();
+    return;
+  }
+  if (strips.empty()) {
+    run.problem = "the run left no surfaces";
+    return;
+  }
+  DrawSurfaceStrips(strips, view, run);
 }
 
 }  // namespace vitruvia

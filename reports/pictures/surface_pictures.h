@@ -3,12 +3,15 @@
 
 #include <filesystem>
 
+#include "records/surface_strips.h"
 #include "reports/drawing/mesh_view.h"
 #include "reports/pictures/pictures.h"
 
 namespace vitruvia {
 
-// Fills titles, strips and the error scale of `run`; its problem where files are damaged.
+// Fills titles, strips and the error scale of `run`.
+void DrawSurfaceStrips(const std::vector<SurfaceStrip>& strips, MeshView& view, RunPictures& run);
+// Of the strips that a run left; its problem where it left none or files are damaged.
 void DrawSurfaceStrips(const std::filesystem::path& run_folder, MeshView& view, RunPictures& run);
 
 }  // namespace vitruvia

@@ -9,18 +9,32 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
+// Until version 1 runs held times as multiples of a kernel's, which do not compare across machines.
+void RemoveCalibratedTimes(Json& file) {
+  if (!file.is_object() || !file.contains("runs") || !file["runs"].is_array()) return;
+  for (Json& run : file["runs"]) {
+    if (!run.is_object()) continue;
+    for (const char* key : {"speed", "speed_noise", "calibration_ms"}) run.erase(key);
+  }
+}
+
 // history.json.
 struct HistoryFile {
-  static constexpr StoredFormat kFormat{"vitruvia-history", 1, 0, "remove the file"};
+  static constexpr StoredFormat kFormat{"vitruvia-history", 2, 0, "remove the file"};
 
   std::vector<HistoryEntry> entries;
 
   void Describe(Fields& f) {
     f.List("entries", entries, {.meaning = "what the gate measured, oldest first"});
   }
-  // Version 0 was the list itself.
+  // Version 0 was the list itself; until version 1 the machine was not kept.
   static void Upgrade(Json& file, int /*version*/) {
     if (file.is_array()) file = Json{{"entries", file}};
+    if (!file.is_object() || !file.contains("entries") || !file["entries"].is_array()) return;
+    for (Json& entry : file["entries"]) {
+      RemoveCalibratedTimes(entry);
+      if (entry.is_object()) entry.emplace("cpu", "unknown");
+    }
   }
 };
 
@@ -47,15 +61,12 @@ void GateBaseline::Describe(Fields& f) {
 void HistoryEntry::Describe(Fields& f) {
   f.Text("date", date, {.meaning = "when the gate measured"});
   f.Text("commit", commit, {.meaning = "commit of the program that was measured"});
+  f.Text("cpu", cpu, {.meaning = "CPU on which the gate measured"});
   f.Integer("exit_code", exit_code, {.meaning = "exit code of the gate"});
   f.List("runs", runs, {.meaning = "numbers that were measured"});
 }
 
-const GatedRun* GateBaseline::Find(const std::string& run_name) const {
-  const auto found = std::find_if(runs.begin(), runs.end(),
-                                  [&](const GatedRun& run) { return run.name() == run_name; });
-  return found == runs.end() ? nullptr : &*found;
-}
+void GateBaseline::Upgrade(Json& file, int /*version*/) { RemoveCalibratedTimes(file); }
 
 GateBaseline ReadBaseline(const fs::path& file) {
   if (!fs::exists(file)) {

@@ -17,15 +17,15 @@ struct Renewal {
 };
 
 struct GateBaseline {
-  static constexpr StoredFormat kFormat{"vitruvia-baseline", 1, 0,
+  static constexpr StoredFormat kFormat{"vitruvia-baseline", 2, 0,
                                         "take a baseline anew: --update --reason TEXT"};
 
   std::string date, commit, cpu;  // of the last renewal
   std::vector<Renewal> renewals;  // all of them, the first one first
   std::vector<GatedRun> runs;
 
-  const GatedRun* Find(const std::string& run_name) const;
   void Describe(Fields& fields);
+  static void Upgrade(Json& file, int version);
 };
 
 // ConfigError if the file is missing, saying how a baseline is taken; DataError if it is damaged.
@@ -34,7 +34,7 @@ void WriteBaseline(const std::filesystem::path& file, const GateBaseline& baseli
 
 // What the gate found on one occasion.
 struct HistoryEntry {
-  std::string date, commit;
+  std::string date, commit, cpu;
   int exit_code = 0;
   std::vector<GatedRun> runs;
 

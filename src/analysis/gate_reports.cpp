@@ -15,7 +15,13 @@ namespace {
 // A number with as many digits as make a difference visible.
 std::string Digits(double value) { return fmt::format("{:.6g}", value); }
 
+// Of speed with the interval of the ratio, which decides.
 std::string ChangeInPercent(const Finding& finding) {
+  const auto percent = [](double ratio) { return fmt::format("{:+.1f} %", 1e2 * (ratio - 1.0)); };
+  if (finding.kind == NumberKind::kSpeed) {
+    return fmt::format("{} ({} … {})", percent(finding.is / finding.was),
+                       percent(finding.ratio.low), percent(finding.ratio.high));
+  }
   if (finding.was == 0.0) return "from 0";
   return fmt::format("{:+.1f} %", 1e2 * (finding.is - finding.was) / std::abs(finding.was));
 }
@@ -27,7 +33,7 @@ struct PrintedFinding {
 
 PrintedFinding PrintedNumbers(const Finding& finding) {
   double scale = 1.0;
-  std::string unit = " × calibration";
+  std::string unit = " ms";
   if (finding.kind == NumberKind::kAccuracy) {
     const Metric metric = FindMetric(finding.metric);
     scale = metric.scale;
@@ -58,9 +64,10 @@ std::string RegressionLines(const Judgement& judgement, const std::string& run, 
   for (const Finding* f : judgement.Regressions(kind)) {
     if (f->run != run) continue;
     const PrintedFinding numbers = PrintedNumbers(*f);
-    lines += fmt::format("{}{}: was {}, is {}, limit {}{}; first bad {}", lines.empty() ? "" : "\n",
-                         f->metric, numbers.was, numbers.is, numbers.limit, numbers.unit,
-                         BlameText(f->blame));
+    lines += fmt::format("{}{}: was {}, is {}, limit {}{}", lines.empty() ? "" : "\n", f->metric,
+                         numbers.was, numbers.is, numbers.limit, numbers.unit);
+    if (const std::string blame = BlameText(f->blame); !blame.empty())
+      lines += "; first bad " + blame;
   }
   return lines;
 }
@@ -87,17 +94,16 @@ std::string NameList(const std::string& title, const std::vector<std::string>& n
   return text + "\n";
 }
 
-// On a busy machine slowdowns go unnoticed; who reads the summary has to know.
-std::string NoiseText(const GateOccasion& occasion) {
-  double noise = 0.0;
-  for (const GatedRun& run : occasion.measured.runs) {
-    const auto found = run.speed_noise.find(kWholeFrame);
-    if (found != run.speed_noise.end()) noise = std::max(noise, found->second);
+std::string SpeedText(const GateOccasion& occasion, const Judgement& judgement) {
+  if (!judgement.speed_not_judged.empty()) {
+    return fmt::format("Speed not judged: {}.", judgement.speed_not_judged);
   }
-  return fmt::format(" (here up to ±{:.0f} % of a frame's time{})", 1e2 * noise,
-                     noise > occasion.tolerances.frame_time
-                         ? ": the machine was busy, and slowdowns of that size go unseen"
-                         : "");
+  return fmt::format(
+      "Times are those of this program and of the baseline's program (commit `{}`), run in turn on "
+      "this machine; a change is called only if the {:g} % interval of the median ratio of its "
+      "pairs "
+      "lies outside the tolerance.",
+      occasion.reference.commit, 1e2 * occasion.tolerances.confidence);
 }
 
 std::string Runs(const std::vector<const Finding*>& findings) {
@@ -124,7 +130,10 @@ std::string Headline(const Judgement& judgement) {
     case ExitCode::kSpeedRegressed:
       return "speed regressed: " + Runs(judgement.Regressions(NumberKind::kSpeed));
     default:
-      return "ok: " + Runs(judgement.OfChange(Change::kWithin)) + " within tolerance";
+      return "ok: " + Runs(judgement.OfChange(Change::kWithin)) + " within tolerance" +
+             (judgement.speed_not_judged.empty()
+                  ? ""
+                  : "; speed not judged: " + judgement.speed_not_judged);
   }
 }
 
@@ -144,6 +153,14 @@ void RegressionFile::FindingEntry::Describe(Fields& f) {
   f.Number("was", was, {.meaning = "value in the baseline", .infinite = true});
   f.Number("is", is, {.meaning = "measured value", .infinite = true});
   f.Number("limit", limit, {.meaning = "worst value that would have passed", .infinite = true});
+  f.Number("ratio_low", ratio.low,
+           {.meaning = "lower end of the interval of the time's ratio; only of speed",
+            .optional = true,
+            .infinite = true});
+  f.Number("ratio_high", ratio.high,
+           {.meaning = "upper end of the interval of the time's ratio; only of speed",
+            .optional = true,
+            .infinite = true});
   f.Choice("change", change,
            {{Name(Change::kWithin), Change::kWithin},
             {Name(Change::kImproved), Change::kImproved},
@@ -164,6 +181,8 @@ void RegressionFile::Describe(Fields& f) {
   f.Text("cpu", cpu, {.meaning = "CPU on which the gate measured"});
   f.Text("verdict", verdict, {.meaning = "verdict in one sentence"});
   f.Integer("exit_code", exit_code, {.meaning = "exit code of the gate"});
+  f.Text("speed_not_judged", speed_not_judged,
+         {.meaning = "why no time was compared; absent if times were", .optional = true});
   f.Section("baseline", baseline, {.meaning = "baseline that was compared with"});
   f.List("findings", findings, {.meaning = "every number that was compared with the baseline"});
   f.Map("failures", failures, {.meaning = "run → why it failed"});
@@ -181,6 +200,7 @@ RegressionFile MakeRegressionFile(const GateOccasion& occasion, const Judgement&
                       occasion.cpu,
                       Headline(judgement),
                       static_cast<int>(judgement.Code()),
+                      judgement.speed_not_judged,
                       {occasion.baseline.commit, occasion.baseline.date, occasion.baseline.cpu},
                       {},
                       judgement.failures,
@@ -199,6 +219,11 @@ std::string ToJunit(const GateOccasion& occasion, const Judgement& judgement) {
   int failures = 0, errors = 0, count = 0;
   for (const GatedRun& run : occasion.measured.runs) {
     for (const NumberKind kind : {NumberKind::kAccuracy, NumberKind::kSpeed}) {
+      if (kind == NumberKind::kSpeed && !judgement.speed_not_judged.empty()) {
+        cases += JunitCase(run.name(), Name(kind), "skipped", judgement.speed_not_judged);
+        ++count;
+        continue;
+      }
       const std::string lines = RegressionLines(judgement, run.name(), kind);
       cases += JunitCase(run.name(), Name(kind), "failure", lines);
       failures += lines.empty() ? 0 : 1;
@@ -223,13 +248,12 @@ std::string ToMarkdown(const GateOccasion& occasion, const Judgement& judgement)
   std::string text = fmt::format(
       "# {}: {}\n\n{}, commit `{}`, on {}. Baseline: commit `{}`, {}, on {}.\n\nTolerances: "
       "accuracy {:g} %, time of a frame {:g} %, of a step {:g} % (of those with {:g} % of a frame "
-      "and more). Times are multiples of the calibration kernel's, medians over the repeats; "
-      "where these spread wider, that is tolerated too{}.\n\n",
+      "and more). {}\n\n",
       occasion.name, Headline(judgement), occasion.date, occasion.commit, occasion.cpu,
       occasion.baseline.commit, occasion.baseline.date, occasion.baseline.cpu,
       1e2 * occasion.tolerances.accuracy, 1e2 * occasion.tolerances.frame_time,
       1e2 * occasion.tolerances.step_time, 1e2 * occasion.tolerances.gated_step_share,
-      NoiseText(occasion));
+      SpeedText(occasion, judgement));
   if (!judgement.failures.empty()) {
     text += "## Failed\n\n";
     for (const auto& [run, reason] : judgement.failures)

@@ -13,11 +13,12 @@ struct GateOccasion {
   GateTolerances tolerances;
   GateBaseline baseline;
   MeasuredRuns measured;
+  SpeedReference reference;
 };
 
 // regression.json.
 struct RegressionFile {
-  static constexpr StoredFormat kFormat{"vitruvia-regression", 1, 0, "run the gate again"};
+  static constexpr StoredFormat kFormat{"vitruvia-regression", 2, 2, "run the gate again"};
 
   struct BaselineEntry {
     std::string commit, date, cpu;
@@ -29,6 +30,7 @@ struct RegressionFile {
 
   std::string name, date, commit, cpu, verdict;
   int exit_code = 0;
+  std::string speed_not_judged;
   BaselineEntry baseline;
   std::vector<FindingEntry> findings;
   std::map<std::string, std::string> failures;

@@ -20,19 +20,13 @@ std::map<std::string, double> TimesOf(const RunRecord& run) {
   return times_ms;
 }
 
-void MeasureSpeed(std::span<const RunRecord> repeats, GatedRun& gated) {
-  std::map<std::string, std::vector<double>> ratios;
+std::map<std::string, std::vector<double>> TimesOfAll(std::span<const RunRecord> repeats) {
+  std::map<std::string, std::vector<double>> times_ms;
   for (const RunRecord& run : repeats) {
-    const double calibration_ms = CalibrationOf(run);
-    if (std::isnan(calibration_ms) || calibration_ms <= 0.0) continue;
-    for (const auto& [name, ms] : TimesOf(run)) ratios[name].push_back(ms / calibration_ms);
+    for (const auto& [name, ms] : TimesOf(run)) times_ms[name].push_back(ms);
   }
-  for (const auto& [name, values] : ratios) {
-    const double median = Quantile(values, 0.5);
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    gated.speed[name] = median;
-    gated.speed_noise[name] = median > 0.0 ? 0.5 * (*most - *least) / median : 0.0;
-  }
+  std::erase_if(times_ms, [&](const auto& timed) { return timed.second.size() != repeats.size(); });
+  return times_ms;
 }
 
 bool IsSame(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
@@ -61,13 +55,14 @@ GatedRun MakeGatedRun(const std::string& experiment, std::span<const RunRecord> 
         [&](const RunRecord& repeat) { return IsSame(MetricValue(repeat, metric), value); });
     if (!is_steady) gated.unsteady.push_back(metric.key);
   }
-  MeasureSpeed(repeats, gated);
-  std::vector<double> calibrations_ms;
-  for (const RunRecord& repeat : repeats) {
-    if (!std::isnan(CalibrationOf(repeat))) calibrations_ms.push_back(CalibrationOf(repeat));
-  }
-  if (!calibrations_ms.empty()) gated.calibration_ms = Quantile(calibrations_ms, 0.5);
+  gated.times_ms = TimesOfAll(repeats);
   return gated;
+}
+
+const GatedRun* FindRun(const std::vector<GatedRun>& runs, const std::string& name) {
+  const auto found = std::find_if(runs.begin(), runs.end(),
+                                  [&](const GatedRun& run) { return run.name() == name; });
+  return found == runs.end() ? nullptr : &*found;
 }
 
 void GatedRun::Describe(Fields& f) {
@@ -79,15 +74,12 @@ void GatedRun::Describe(Fields& f) {
   f.Integer("repeats", repeats, {.meaning = "how often the run was repeated"});
   f.Map("accuracy", accuracy, {.meaning = "metric → its value in the first repeat"});
   f.Texts("unsteady", unsteady, {.meaning = "metrics that differ between the repeats"});
-  f.Map("speed", speed,
-        {.meaning = "what was timed → its time as a multiple of the calibration kernel's, the "
-                    "median over the repeats"});
-  f.Map("speed_noise", speed_noise,
-        {.meaning = "what was timed → half the range of its time over the repeats as a share of "
-                    "the median"});
-  f.Number(
-      "calibration_ms", calibration_ms,
-      {.meaning = "time of the calibration kernel, the median over the repeats", .unit = "ms"});
+  f.Map(
+      "times_ms", times_ms,
+      {.meaning = "what was timed → its median time per frame in each repeat; compares with times "
+                  "of the same sitting only",
+       .unit = "ms",
+       .optional = true});
 }
 
 }  // namespace vitruvia

@@ -32,19 +32,19 @@ struct GatedRun {
   // `unsteady` names those that are not.
   std::map<std::string, double> accuracy;
   std::vector<std::string> unsteady;
-  // By name of what was timed (kWholeTimes or a step): its time as a multiple of the calibration
-  // kernel's in the same process (core/calibration.h), the median over the repeats.
-  std::map<std::string, double> speed;
-  // By the same names, half the range over the repeats as a share of the median.
-  std::map<std::string, double> speed_noise;
-  double calibration_ms = 0.0;  // median over the repeats
+  // By name of what was timed (kWholeTimes or a step): its median time per frame in each repeat,
+  // ms. Compares with times of the same sitting on the same machine only.
+  std::map<std::string, std::vector<double>> times_ms;
 
   void Describe(Fields& fields);
   std::string name() const;  // "experiment: variant.scene.method.s1"
 };
 
-// Of the records of the same run, one for each repeat, at least one. Records without a calibration
-// have no speed.
+// Of the records of the same run, one for each repeat, at least one. What was not timed in every
+// repeat has no times.
 GatedRun MakeGatedRun(const std::string& experiment, std::span<const RunRecord> repeats);
+
+// The run of that name; nullptr if there is none.
+const GatedRun* FindRun(const std::vector<GatedRun>& runs, const std::string& name);
 
 }  // namespace vitruvia

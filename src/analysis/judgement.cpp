@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/statistics.h"
 #include "metrics/catalogue.h"
 
 namespace vitruvia {
@@ -27,11 +28,6 @@ Limits AccuracyLimits(const std::string& metric, double was, double tolerance) {
   return {was + sign * allowed, was - sign * allowed};
 }
 
-// A time may be as much slower as a ratio says, and the same ratio the other way is an improvement.
-Limits SpeedLimits(double was, double tolerance) {
-  return {was * (1.0 + tolerance), was / (1.0 + tolerance)};
-}
-
 Change ChangeOf(double is, const Limits& limits) {
   const double sign = limits.worst >= limits.best ? 1.0 : -1.0;
   if (sign * is > sign * limits.worst) return Change::kRegressed;
@@ -39,17 +35,12 @@ Change ChangeOf(double is, const Limits& limits) {
   return Change::kWithin;
 }
 
-const std::map<std::string, double>& NumbersOf(const GatedRun& run, NumberKind kind) {
-  return kind == NumberKind::kAccuracy ? run.accuracy : run.speed;
-}
-
 // The value of a finding on an earlier occasion; NaN if it was not measured then.
 double ValueThen(const HistoryEntry& entry, const Finding& finding) {
   for (const GatedRun& run : entry.runs) {
     if (run.name() != finding.run) continue;
-    const auto& numbers = NumbersOf(run, finding.kind);
-    const auto found = numbers.find(finding.metric);
-    return found == numbers.end() ? NAN : found->second;
+    const auto found = run.accuracy.find(finding.metric);
+    return found == run.accuracy.end() ? NAN : found->second;
   }
   return NAN;
 }
@@ -71,17 +62,29 @@ Blame BlameFor(const Finding& finding, const Limits& limits,
   return blame;
 }
 
-// The tolerance of something timed, 0 if its share of the frame is too small to be gated.
-double SpeedTolerance(const GatedRun& was, const std::string& name, double ratio,
-                      const GateTolerances& tolerances) {
-  const auto frame = was.speed.find(kWholeFrame);
-  if (frame == was.speed.end() || name == kWholeFrame) return tolerances.frame_time;
-  return ratio >= tolerances.gated_step_share * frame->second ? tolerances.step_time : 0.0;
+Interval RatioInterval(const std::vector<double>& was_ms, const std::vector<double>& is_ms,
+                       double confidence) {
+  std::vector<double> ratios;
+  for (std::size_t k = 0; k < std::min(was_ms.size(), is_ms.size()); ++k) {
+    ratios.push_back(is_ms[k] / was_ms[k]);
+  }
+  return MedianInterval(ratios, confidence);
 }
 
-double NoiseOf(const GatedRun& run, const std::string& name) {
-  const auto found = run.speed_noise.find(name);
-  return found == run.speed_noise.end() ? 0.0 : found->second;
+// A ratio may be as much above one as the tolerance says, and the same the other way is an
+// improvement.
+Change ChangeOf(const Interval& ratio, double tolerance) {
+  if (ratio.low > 1.0 + tolerance) return Change::kRegressed;
+  if (ratio.high < 1.0 / (1.0 + tolerance)) return Change::kImproved;
+  return Change::kWithin;
+}
+
+// Steps that take little of a frame are mostly the clock's noise.
+bool IsGated(const std::string& name, const GatedRun& was, const GateTolerances& tolerances) {
+  const auto frame = was.times_ms.find(kWholeFrame);
+  if (frame == was.times_ms.end() || name == kWholeFrame) return true;
+  return Quantile(was.times_ms.at(name), 0.5) >=
+         tolerances.gated_step_share * Quantile(frame->second, 0.5);
 }
 
 // Failures go by the run's id, which is its name and a hash.
@@ -97,34 +100,48 @@ class Judging {
           const std::vector<HistoryEntry>& history, const std::string& commit)
       : baseline_(baseline), tolerances_(tolerances), history_(history), commit_(commit) {}
 
-  void Compare(const GatedRun& was, const GatedRun& is) {
-    for (const auto& [metric, value] : was.accuracy)
-      Compare(was, is, NumberKind::kAccuracy, metric,
-              AccuracyLimits(metric, value, tolerances_.accuracy));
-    for (const auto& [name, value] : was.speed) {
-      const double tolerance = SpeedTolerance(was, name, value, tolerances_);
-      if (tolerance == 0.0) continue;
-      const double noise = NoiseOf(was, name) + NoiseOf(is, name);
-      Compare(was, is, NumberKind::kSpeed, name, SpeedLimits(value, std::max(tolerance, noise)));
-    }
+  void CompareAccuracy(const GatedRun& was, const GatedRun& is) {
+    for (const auto& [metric, value] : was.accuracy) CompareMetric(is, metric, value);
     if (!is.unsteady.empty()) {
       judgement_.failures[is.name()] =
           fmt::format("not the same in all repeats: {}", fmt::join(is.unsteady, ", "));
     }
   }
 
+  void CompareSpeed(const GatedRun& was, const GatedRun& is) {
+    for (const auto& [name, was_ms] : was.times_ms) {
+      const auto found = is.times_ms.find(name);
+      if (found == is.times_ms.end() || !IsGated(name, was, tolerances_)) continue;
+      const double tolerance = name == kWholeFrame ? tolerances_.frame_time : tolerances_.step_time;
+      Finding finding;
+      finding.run = is.name();
+      finding.kind = NumberKind::kSpeed;
+      finding.metric = name;
+      finding.was = Quantile(was_ms, 0.5);
+      finding.is = Quantile(found->second, 0.5);
+      finding.limit = (1.0 + tolerance) * finding.was;
+      finding.ratio = RatioInterval(was_ms, found->second, tolerances_.confidence);
+      finding.change = ChangeOf(finding.ratio, tolerance);
+      judgement_.findings.push_back(std::move(finding));
+    }
+  }
+
   Judgement& judgement() { return judgement_; }
 
  private:
-  void Compare(const GatedRun& was, const GatedRun& is, NumberKind kind, const std::string& metric,
-               const Limits& limits) {
-    const auto found = NumbersOf(is, kind).find(metric);
-    if (found == NumbersOf(is, kind).end()) {
+  void CompareMetric(const GatedRun& is, const std::string& metric, double was) {
+    const auto found = is.accuracy.find(metric);
+    if (found == is.accuracy.end()) {
       judgement_.unmeasured.push_back(fmt::format("{}: {}", is.name(), metric));
       return;
     }
-    Finding finding{is.name(),     kind,         metric,          NumbersOf(was, kind).at(metric),
-                    found->second, limits.worst, Change::kWithin, {}};
+    const Limits limits = AccuracyLimits(metric, was, tolerances_.accuracy);
+    Finding finding;
+    finding.run = is.name();
+    finding.metric = metric;
+    finding.was = was;
+    finding.is = found->second;
+    finding.limit = limits.worst;
     finding.change = ChangeOf(finding.is, limits);
     if (finding.change == Change::kRegressed)
       finding.blame = BlameFor(finding, limits, history_, commit_, baseline_.commit);
@@ -138,6 +155,28 @@ class Judging {
   Judgement judgement_;
 };
 
+// Of the runs that both programs carried out.
+int FewestRepeats(const std::vector<GatedRun>& measured, const std::vector<GatedRun>& reference) {
+  int fewest = 0;
+  for (const GatedRun& run : measured) {
+    const GatedRun* was = FindRun(reference, run.name());
+    if (was == nullptr) continue;
+    const int pairs = std::min(run.repeats, was->repeats);
+    fewest = fewest == 0 ? pairs : std::min(fewest, pairs);
+  }
+  return fewest;
+}
+
+std::string WhySpeedIsNotJudged(const MeasuredRuns& measured, const SpeedReference& reference,
+                                double confidence) {
+  if (!reference.problem.empty()) return reference.problem;
+  const int pairs = FewestRepeats(measured.runs, reference.runs);
+  if (pairs == 0) return "the baseline's program carried out none of the measured runs";
+  if (pairs >= FewestPairs(confidence)) return "";
+  return fmt::format("{} repeats; at a confidence of {:g} % a change needs {}", pairs,
+                     1e2 * confidence, FewestPairs(confidence));
+}
+
 }  // namespace
 
 void GateTolerances::Describe(Fields& f) {
@@ -148,12 +187,12 @@ void GateTolerances::Describe(Fields& f) {
             .max = 1.0,
             .origin = Origin::kGuessed});
   f.Number("frame_time", frame_time,
-           {.meaning = "by how much of itself the calibrated time of a frame may grow",
+           {.meaning = "by how much of itself the time of a frame may grow",
             .min = 0.0,
             .max = 10.0,
             .origin = Origin::kGuessed});
   f.Number("step_time", step_time,
-           {.meaning = "by how much of itself the calibrated time of a step may grow",
+           {.meaning = "by how much of itself the time of a step may grow",
             .min = 0.0,
             .max = 10.0,
             .origin = Origin::kGuessed});
@@ -162,6 +201,12 @@ void GateTolerances::Describe(Fields& f) {
                        "ones are mostly the clock's noise",
             .min = 0.0,
             .max = 1.0,
+            .origin = Origin::kGuessed});
+  f.Number("confidence", confidence,
+           {.meaning = "confidence of the interval of a time's ratio, which must lie outside the "
+                       "tolerance for a change to be called",
+            .min = 0.5,
+            .max = 0.999,
             .origin = Origin::kGuessed});
 }
 
@@ -202,23 +247,25 @@ ExitCode Judgement::Code() const {
 }
 
 Judgement Judge(const GateBaseline& baseline, const MeasuredRuns& measured,
-                const GateTolerances& tolerances, const std::vector<HistoryEntry>& history,
-                const std::string& commit) {
+                const SpeedReference& reference, const GateTolerances& tolerances,
+                const std::vector<HistoryEntry>& history, const std::string& commit) {
   Judging judging(baseline, tolerances, history, commit);
   Judgement& judgement = judging.judgement();
   judgement.failures = measured.failures;
+  judgement.speed_not_judged = WhySpeedIsNotJudged(measured, reference, tolerances.confidence);
   for (const GatedRun& run : measured.runs) {
-    if (const GatedRun* was = baseline.Find(run.name())) {
-      judging.Compare(*was, run);
+    if (const GatedRun* was = FindRun(baseline.runs, run.name())) {
+      judging.CompareAccuracy(*was, run);
     } else {
       judgement.unknown.push_back(run.name());
     }
+    const GatedRun* was = FindRun(reference.runs, run.name());
+    if (was != nullptr && judgement.speed_not_judged.empty()) judging.CompareSpeed(*was, run);
   }
   for (const GatedRun& was : baseline.runs) {
-    const bool is_there =
-        std::any_of(measured.runs.begin(), measured.runs.end(),
-                    [&](const GatedRun& run) { return run.name() == was.name(); });
-    if (!is_there && !HasFailed(measured, was.name())) judgement.unmeasured.push_back(was.name());
+    if (FindRun(measured.runs, was.name()) == nullptr && !HasFailed(measured, was.name())) {
+      judgement.unmeasured.push_back(was.name());
+    }
   }
   return judgement;
 }

@@ -6,17 +6,19 @@
 #include <vector>
 
 #include "analysis/gate_files.h"
+#include "analysis/paired_comparison.h"
 #include "config/settings.h"
+#include "config/stored_data.h"
 #include "core/error.h"
 
 namespace vitruvia {
 
-// Speed is allowed the noise of its repeats, then and now, where that is more.
 struct GateTolerances {
   double accuracy = 1e-3;
-  double frame_time = 0.2;
-  double step_time = 0.25;
+  double frame_time = 0.05;
+  double step_time = 0.05;
   double gated_step_share = 0.1;
+  double confidence = 0.95;
 
   void Describe(Fields& fields);
 };
@@ -27,7 +29,7 @@ const char* Name(NumberKind kind);
 enum class Change { kWithin, kImproved, kRegressed };
 const char* Name(Change change);
 
-// Where in the history a regression came in.
+// Where in the history a regression of accuracy came in. Times of other occasions say nothing.
 struct Blame {
   // Commits. The last good one is the baseline's where the history says nothing.
   std::string last_good, first_bad;
@@ -37,8 +39,12 @@ struct Finding {
   std::string run;  // GatedRun::name()
   NumberKind kind = NumberKind::kAccuracy;
   std::string metric;
+  // Of accuracy the baseline's value and the measured one; of speed the medians over the repeats of
+  // the baseline's program and of the measured one, ms.
   double was = 0.0, is = 0.0;
   double limit = 0.0;  // the worst value that would have passed
+  // Of speed: interval of the median of is / was over the pairs of repeats. NaN of accuracy.
+  Interval ratio = {kAbsent, kAbsent};
   Change change = Change::kWithin;
   Blame blame;  // of regressions
 };
@@ -48,6 +54,7 @@ struct Judgement {
   std::map<std::string, std::string> failures;  // run → what went wrong; unsteady numbers too
   std::vector<std::string> unknown;             // measured, but not in the baseline
   std::vector<std::string> unmeasured;          // runs or numbers of the baseline that are no more
+  std::string speed_not_judged;                 // "" or why no time was compared
 
   std::vector<const Finding*> OfChange(Change change) const;
   std::vector<const Finding*> Regressions(NumberKind kind) const;
@@ -61,9 +68,19 @@ struct MeasuredRuns {
   std::map<std::string, std::string> failures;  // by a name that people can find the run under
 };
 
-// The history is what was found before, oldest first; `commit` is that of the measured build.
+// The same runs carried out by the baseline's program on the same machine in the same sitting: its
+// k-th repeat ran next to the k-th repeat of the measured program.
+struct SpeedReference {
+  std::vector<GatedRun> runs;
+  std::string commit;   // of that program
+  std::string problem;  // "" or why there are no runs
+};
+
+// Accuracy is held against the baseline, and speed against the reference: a time has changed only
+// if the interval of the median ratio of its pairs lies outside the tolerance. The history is what
+// was found before, oldest first; `commit` is that of the measured build.
 Judgement Judge(const GateBaseline& baseline, const MeasuredRuns& measured,
-                const GateTolerances& tolerances, const std::vector<HistoryEntry>& history,
-                const std::string& commit);
+                const SpeedReference& reference, const GateTolerances& tolerances,
+                const std::vector<HistoryEntry>& history, const std::string& commit);
 
 }  // namespace vitruvia

@@ -1,6 +1,7 @@
 #include "analysis/paired_comparison.h"
 
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numbers>
@@ -74,6 +75,23 @@ Interval BootstrapMeanInterval(std::span<const double> values, const BootstrapSe
   const std::vector<double> means = ResampledMeans(values, settings);
   const double tail = ExpandedTail(settings.confidence, values.size());
   return {Quantile(means, tail), Quantile(means, 1.0 - tail)};
+}
+
+Interval MedianInterval(std::span<const double> values, double confidence) {
+  Require(confidence > 0.0 && confidence < 1.0, "MedianInterval: confidence {}", confidence);
+  const double tail = 0.5 * (1.0 - confidence);
+  std::vector<double> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
+  // The median lies below the k-th smallest value where fewer than k of n fair coins show heads.
+  const boost::math::binomial_distribution coins(static_cast<double>(sorted.size()), 0.5);
+  std::size_t k = 0;
+  while (2 * (k + 1) <= sorted.size() && boost::math::cdf(coins, static_cast<double>(k)) <= tail) {
+    ++k;
+  }
+  if (k == 0) {
+    return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  }
+  return {sorted[k - 1], sorted[sorted.size() - k]};
 }
 
 int FewestPairs(double confidence) {

@@ -36,6 +36,12 @@ struct Interval {
 // std::invalid_argument on an empty sample or settings out of range.
 Interval BootstrapMeanInterval(std::span<const double> values, const BootstrapSettings& settings);
 
+// Of the median of what the values were drawn from, whatever their distribution: the sign test's
+// interval, from an order statistic to its mirror image, the narrowest that holds the median with
+// at least this probability. One value far off does not move it. [−∞, ∞] of fewer values than
+// FewestPairs(confidence).
+Interval MedianInterval(std::span<const double> values, double confidence);
+
 // With fewer pairs than this even differences that all have one sign arise by chance more often
 // than in 1 − confidence of all cases (a sign test's 2^(1 − n)), so none is called one: 6 at 95 %.
 int FewestPairs(double confidence);

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "math/angles.h"
+#include "math/rotation.h"
 
 namespace vitruvia {
 namespace {

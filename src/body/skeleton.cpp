@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "math/rigid.h"
 
 namespace vitruvia {
 namespace {

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "math/rigid.h"
+#include "math/vector.h"
 
 namespace vitruvia {
 

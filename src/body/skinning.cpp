@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "math/dual_quaternion.h"
+#include "math/rigid.h"
 
 // Precision: bone transforms are composed in double; skinning rounds each to float once and works
 // in float. Translations are those of posed_from_rest, so errors grow with the distance from the

@@ -252,7 +252,7 @@ class Reader final : public Fields {
   struct Level {
     const Json* json;
     Place place;                     // in the level above
-    std::vector<const char*> known;  // keys of the description
+    std::vector<std::string> known;  // keys of the description, which may not outlive its calls
     std::size_t found;               // of them in the file
   };
 
@@ -349,7 +349,7 @@ class Reader final : public Fields {
   }
 
   void RejectUnknownKeys(const Level& level) {
-    std::vector<std::string> known(level.known.begin(), level.known.end());
+    std::vector<std::string> known = level.known;
     std::sort(known.begin(), known.end());
     known.erase(std::unique(known.begin(), known.end()), known.end());
     for (const auto& [key, value] : level.json->items()) {

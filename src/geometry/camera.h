@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "config/settings.h"
-#include "math/rigid.h"
+#include "math/vector.h"
 
 namespace vitruvia {
 

@@ -1,5 +1,6 @@
 #include "geometry/depth_png.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -7,6 +8,11 @@
 #include "geometry/grey_png.h"
 
 namespace vitruvia {
+namespace {
+
+constexpr double kLargest = std::numeric_limits<std::uint16_t>::max();
+
+}  // namespace
 
 DepthImage ReadDepthPng(const std::filesystem::path& file, double unit_m, int width, int height) {
   Require(unit_m > 0.0, "ReadDepthPng: unit_m = {}, expected > 0", unit_m);
@@ -19,17 +25,39 @@ DepthImage ReadDepthPng(const std::filesystem::path& file, double unit_m, int wi
   return depth;
 }
 
+std::string DepthPngProblem(const DepthImage& depth, double unit_m) {
+  long measured = 0, outside = 0;
+  float least_m = std::numeric_limits<float>::infinity(), most_m = 0.0f;
+  for (const float z : depth.pixels()) {
+    if (!(z > 0.0f) || !std::isfinite(z)) continue;
+    ++measured;
+    const double units = std::round(z / unit_m);
+    if (units >= 1.0 && units <= kLargest) continue;
+    ++outside;
+    least_m = std::min(least_m, z);
+    most_m = std::max(most_m, z);
+  }
+  if (outside == 0) return "";
+  const bool is_too_deep = std::round(most_m / unit_m) > kLargest;
+  return fmt::format(
+      "{} of {} measured pixels, {:.4g} to {:.4g} m deep, do not fit 16 bits: with a depth_unit_m "
+      "of {:g} m these hold {:.4g} to {:.4g} m; expected a depth_unit_m of at {} {:.3g} m",
+      outside, measured, least_m, most_m, unit_m, unit_m, kLargest * unit_m,
+      is_too_deep ? "least" : "most", is_too_deep ? most_m / kLargest : least_m);
+}
+
 void WriteDepthPng(const std::filesystem::path& file, const DepthImage& depth, double unit_m) {
   Require(unit_m > 0.0, "WriteDepthPng: unit_m = {}, expected > 0", unit_m);
   Require(!depth.empty(), "WriteDepthPng: image of {}×{} pixels, expected at least one",
           depth.width(), depth.height());
-  constexpr double kLargest = std::numeric_limits<std::uint16_t>::max();
+  const std::string problem = DepthPngProblem(depth, unit_m);
+  Require(problem.empty(), "WriteDepthPng: {}", problem);
   cv::Mat raw(depth.height(), depth.width(), CV_16UC1);
   for (int v = 0; v < depth.height(); ++v) {
     auto* row = raw.ptr<std::uint16_t>(v);
     for (int u = 0; u < depth.width(); ++u) {
       const double units = std::round(depth(u, v) / unit_m);
-      row[u] = units >= 0.0 && units <= kLargest ? static_cast<std::uint16_t>(units) : 0;
+      row[u] = units > 0.0 && std::isfinite(units) ? static_cast<std::uint16_t>(units) : 0;
     }
   }
   WriteGreyPng(file, raw);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "geometry/image.h"
 
@@ -11,7 +12,12 @@ namespace vitruvia {
 // not of the expected size.
 DepthImage ReadDepthPng(const std::filesystem::path& file, double unit_m, int width, int height);
 
-// Depths beyond 65535 units become 0, as a sensor's out of range does; so do NaN and negatives.
+// "" if every finite depth above 0 is 1 to 65535 units when rounded, as the file can hold; else how
+// many are not, and the unit that would do.
+std::string DepthPngProblem(const DepthImage& depth, double unit_m);
+
+// Depths that are negative or not finite become 0. std::invalid_argument with DepthPngProblem's
+// text.
 void WriteDepthPng(const std::filesystem::path& file, const DepthImage& depth, double unit_m);
 
 }  // namespace vitruvia

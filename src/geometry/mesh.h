@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "math/rigid.h"
+#include "math/vector.h"
 
 namespace vitruvia {
 

@@ -6,8 +6,9 @@
 //
 // They are our own because no library at hand does all of it: OpenMesh refuses whole files (a
 // second list on faces, a comment before the format, continued lines), VTK crashes on files that
-// are cut short and duplicates vertices that have texture coordinates, tinyobjloader reads wrong
-// numbers as zero, and none of them says where a file is damaged.
+// are cut short and duplicates vertices that have texture coordinates, tinyobjloader (2.0.0rc10)
+// reads "abc" and "nan" as 0 and "2,5" as 2 without a word and refuses continued lines, and none of
+// them says where a file is damaged.
 #pragma once
 
 #include <string>

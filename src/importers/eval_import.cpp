@@ -11,7 +11,9 @@
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/progress.h"
+#include "importers/checked_sequence.h"
 #include "importers/eval_file.h"
+#include "importers/pixel_fit.h"
 #include "sequence/joint_visibility.h"
 #include "sequence/sequence.h"
 
@@ -22,36 +24,6 @@ namespace {
 // Columns and rows are whole numbers and points have seven digits: more than this is another camera
 // model, or another order of the points.
 constexpr double kLargestResidual_px = 0.1;
-
-// pixel = focal × slope + center by least squares, from sums.
-class PixelFit {
- public:
-  void Add(double slope, double pixel) {
-    ++count_;
-    slope_ += slope;
-    pixel_ += pixel;
-    slope_slope_ += slope * slope;
-    slope_pixel_ += slope * pixel;
-    pixel_pixel_ += pixel * pixel;
-  }
-
-  long count() const { return count_; }
-  double focal() const { return Covariance() / Variance(); }
-  double center() const { return (pixel_ - focal() * slope_) / static_cast<double>(count_); }
-  bool is_determined() const { return count_ > 1 && Variance() > 0.0; }
-  double SquaredResiduals() const {
-    const double spread = pixel_pixel_ - pixel_ * pixel_ / static_cast<double>(count_);
-    return std::max(0.0, spread - focal() * Covariance());
-  }
-
- private:
-  double Variance() const { return slope_slope_ - slope_ * slope_ / static_cast<double>(count_); }
-  double Covariance() const { return slope_pixel_ - slope_ * pixel_ / static_cast<double>(count_); }
-
-  long count_ = 0;
-  double slope_ = 0.0, pixel_ = 0.0;
-  double slope_slope_ = 0.0, slope_pixel_ = 0.0, pixel_pixel_ = 0.0;
-};
 
 // How far a joint is from a marker.
 struct MarkerDistance {
@@ -232,6 +204,14 @@ SequenceInfo InfoOf(const EvalImport& imported, const std::vector<fs::path>& fil
   return info;
 }
 
+std::string JumpWarning(int jumps, int frames, const std::string& where) {
+  if (jumps == 0) return "";
+  return fmt::format(
+      "{}: {} of {} frames do not have the number after their predecessor's: frames on both sides "
+      "are taken as neighbours in time",
+      where, jumps, frames);
+}
+
 }  // namespace
 
 void EvalJointName::Describe(Fields& f) {
@@ -310,7 +290,7 @@ EvalImport ImportEvalSequence(const std::vector<fs::path>& files,
       progress.Advance();
     }
   }
-  writer.Finish();
+  PublishChecked(writer, folder, {JumpWarning(result.jumps, survey.frames, where)});
   return result;
 }
 

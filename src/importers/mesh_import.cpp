@@ -1,6 +1,7 @@
 #include "importers/mesh_import.h"
 
 #include <algorithm>
+#include <optional>
 
 #include <Eigen/QR>
 
@@ -11,27 +12,19 @@
 #include "geometry/mesh_io.h"
 #include "geometry/surface_map.h"
 #include "geometry/zbuffer.h"
+#include "importers/checked_sequence.h"
+#include "importers/frame_files.h"
+#include "math/rigid.h"
 #include "sequence/joint_visibility.h"
 #include "sequence/sequence.h"
+#include "sequence/view_watch.h"
+#include "verification/verification.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr float kNearestToCamera_m = 0.1f;
-
-std::vector<fs::path> FrameFiles(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (IsMeshFile(entry.path())) files.push_back(entry.path());
-  }
-  if (files.empty())
-    throw DataError(fmt::format("{}: expected a folder of .obj, .ply or .off files, found none",
-                                folder.string()));
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 TriangleMesh ReadScaled(const fs::path& file, double unit_m) {
   TriangleMesh mesh = ReadMesh(file);
@@ -98,18 +91,9 @@ class JointFinder {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> normal_;
 };
 
-// The vertices of one frame, camera frame.
-std::vector<Vector3f> ReadFrame(const fs::path& file, const MeshSequenceSettings& settings,
-                                const TriangleMesh& rest) {
+// The mesh of one frame, camera frame.
+TriangleMesh ReadFrame(const fs::path& file, const MeshSequenceSettings& settings) {
   TriangleMesh mesh = ReadScaled(file, settings.unit_m);
-  if (mesh.vertices.size() != rest.vertices.size() || mesh.triangles != rest.triangles) {
-    throw DataError(fmt::format(
-        "{}: expected the {} vertices and {} triangles of the rest mesh in their order, got {} and "
-        "{}{}",
-        file.string(), rest.vertices.size(), rest.triangles.size(), mesh.vertices.size(),
-        mesh.triangles.size(),
-        mesh.triangles.size() == rest.triangles.size() ? " (other triangles)" : ""));
-  }
   if (settings.frame == MeshFrame::kSubject) {
     const Rigidf camera_from_subject = CameraFromSubject(settings.view).Cast<float>();
     for (Vector3f& v : mesh.vertices) v = camera_from_subject * v;
@@ -121,7 +105,18 @@ std::vector<Vector3f> ReadFrame(const fs::path& file, const MeshSequenceSettings
                     "{} (is `frame` or `unit_m` right?)",
                     file.string(), v.z(), kNearestToCamera_m));
   }
-  return mesh.vertices;
+  return mesh;
+}
+
+void RequireSameMesh(const fs::path& file, const TriangleMesh& mesh, const TriangleMesh& rest) {
+  if (mesh.vertices.size() != rest.vertices.size() || mesh.triangles != rest.triangles) {
+    throw DataError(fmt::format(
+        "{}: expected the {} vertices and {} triangles of the rest mesh in their order, got {} and "
+        "{}{}",
+        file.string(), rest.vertices.size(), rest.triangles.size(), mesh.vertices.size(),
+        mesh.triangles.size(),
+        mesh.triangles.size() == rest.triangles.size() ? " (other triangles)" : ""));
+  }
 }
 
 SequenceInfo InfoOf(const MeshSequenceSettings& settings, int frames) {
@@ -130,10 +125,67 @@ SequenceInfo InfoOf(const MeshSequenceSettings& settings, int frames) {
   info.depth_unit_m = settings.sensor.depth_unit_m;
   info.fps = settings.fps;
   info.frames = frames;
-  for (const BoneInfo& bone : Bones()) info.joints.emplace_back(bone.joint);
+  info.surface = !settings.rest.empty();
+  info.own_surfaces = settings.rest.empty();
+  info.subject = !settings.subject.empty();
+  if (info.surface) {
+    for (const BoneInfo& bone : Bones()) info.joints.emplace_back(bone.joint);
+  }
   info.provenance = {
       {"made_by", "vitruvia import"}, {"import", WriteSettings(settings)}, {"build", Provenance()}};
   return info;
+}
+
+DepthImage Measured(const DepthImage& depth, const MeshSequenceSettings& settings, int frame) {
+  RandomStream noise(static_cast<std::uint64_t>(settings.seed), fmt::format("sensor/{}", frame));
+  return Measure(depth, settings.view.camera, settings.sensor, noise);
+}
+
+// Meshes that correspond to the subject's template.
+void ImportCorrespondingMeshes(const MeshSequenceSettings& settings, const FrameFiles& files,
+                               const fs::path& folder) {
+  const BodyModel subject = ReadBodyModel(settings.subject);
+  const TriangleMesh rest = ReadScaled(settings.rest, settings.unit_m);
+  RequireRestMeshOf(subject, settings.subject, rest, settings.rest);
+  const PinholeCamera& camera = settings.view.camera;
+  const JointFinder joints(subject, rest);
+  ZBuffer zbuffer(camera);
+  const auto count = static_cast<int>(files.files.size());
+  SequenceWriter writer(folder, InfoOf(settings, count), subject, rest);
+  ViewWatch watch(camera);
+  Progress progress("import " + folder.filename().string(), count);
+  for (int i = 0; i < count; ++i) {
+    const fs::path& file = files.files[static_cast<std::size_t>(i)];
+    const TriangleMesh mesh = ReadFrame(file, settings);
+    RequireSameMesh(file, mesh, rest);
+    watch.Look(mesh.vertices, i);
+    const DepthImage& depth = zbuffer.Render(mesh.vertices, mesh.triangles);
+    const std::vector<Vector3d> found = joints.Find(mesh.vertices);
+    writer.Append(Measured(depth, settings, i), mesh.vertices,
+                  {found, VisibleJoints(found, depth, camera)});
+    progress.Advance();
+  }
+  PublishChecked(writer, folder, {files.warning, watch.Warning(count)});
+}
+
+// Meshes that correspond to nothing, each of its own triangles.
+void ImportOwnSurfaces(const MeshSequenceSettings& settings, const FrameFiles& files,
+                       const fs::path& folder) {
+  std::optional<BodyModel> subject;
+  if (!settings.subject.empty()) subject = ReadBodyModel(settings.subject);
+  ZBuffer zbuffer(settings.view.camera);
+  const auto count = static_cast<int>(files.files.size());
+  SequenceWriter writer(folder, InfoOf(settings, count), subject);
+  ViewWatch watch(settings.view.camera);
+  Progress progress("import " + folder.filename().string(), count);
+  for (int i = 0; i < count; ++i) {
+    const TriangleMesh mesh = ReadFrame(files.files[static_cast<std::size_t>(i)], settings);
+    watch.Look(mesh.vertices, i);
+    const DepthImage& depth = zbuffer.Render(mesh.vertices, mesh.triangles);
+    writer.Append(Measured(depth, settings, i), mesh, JointTruth());
+    progress.Advance();
+  }
+  PublishChecked(writer, folder, {files.warning, watch.Warning(count)});
 }
 
 }  // namespace
@@ -141,15 +193,17 @@ SequenceInfo InfoOf(const MeshSequenceSettings& settings, int frames) {
 void MeshSequenceSettings::Describe(Fields& f) {
   f.Text("title", title, {.meaning = "what the sequence shows"});
   f.File("meshes", meshes,
-         {.meaning = "folder of .obj, .ply or .off files, one for each frame in the order of their "
-                     "names",
+         {.meaning = "folder of .obj, .ply or .off files, one for each frame in the order of the "
+                     "numbers in their names, which may differ in nothing else; `rest` is none of "
+                     "them",
           .required = true});
   f.File("subject", subject,
-         {.meaning = "folder of the subject: mesh.ply, subject.json, weights.bin (FORMAT.md)",
-          .required = true});
-  f.File("rest", rest,
-         {.meaning = "the mesh of the frames in the rest pose of the subject, subject frame",
-          .required = true});
+         {.meaning = "folder of the subject: mesh.ply, subject.json, weights.bin (FORMAT.md); "
+                     "without it whoever tracks the sequence has to name one"});
+  f.File(
+      "rest", rest,
+      {.meaning = "the mesh of the frames in the rest pose of the subject, subject frame; without "
+                  "it the mesh of each frame is a true surface with triangles of its own"});
   f.Choice("frame", frame, {{"subject", MeshFrame::kSubject}, {"camera", MeshFrame::kCamera}},
            {.meaning = "frame of reference of the frames' meshes: subject (y up, front to +z) or "
                        "camera (y down, z away)"});
@@ -164,26 +218,20 @@ void MeshSequenceSettings::Describe(Fields& f) {
   f.Integer("seed", seed, {.meaning = "seed of the sensor's noise", .min = 0, .max = 1e9});
 }
 
+std::string MeshSequenceSettings::Problem() const {
+  if (!rest.empty() && subject.empty())
+    return "rest: names the rest pose of a subject, but `subject` names none";
+  return "";
+}
+
 void ImportMeshSequence(const MeshSequenceSettings& settings, const fs::path& folder) {
-  const std::vector<fs::path> files = FrameFiles(settings.meshes);
-  const BodyModel subject = ReadBodyModel(settings.subject);
-  const TriangleMesh rest = ReadScaled(settings.rest, settings.unit_m);
-  const PinholeCamera& camera = settings.view.camera;
-  const JointFinder joints(subject, rest);
-  ZBuffer zbuffer(camera);
-  const auto count = static_cast<int>(files.size());
-  SequenceWriter writer(folder, InfoOf(settings, count), subject, rest);
-  Progress progress("import " + folder.filename().string(), count);
-  for (int i = 0; i < count; ++i) {
-    const std::vector<Vector3f> vertices = ReadFrame(files[i], settings, rest);
-    const DepthImage& depth = zbuffer.Render(vertices, rest.triangles);
-    const std::vector<Vector3d> found = joints.Find(vertices);
-    RandomStream noise(static_cast<std::uint64_t>(settings.seed), fmt::format("sensor/{}", i));
-    writer.Append(Measure(depth, camera, settings.sensor, noise), vertices,
-                  {found, VisibleJoints(found, depth, camera)});
-    progress.Advance();
+  const FrameFiles files =
+      FindFrameFiles(settings.meshes, IsMeshFile, {settings.rest}, ".obj, .ply or .off files");
+  if (settings.rest.empty()) {
+    ImportOwnSurfaces(settings, files, folder);
+  } else {
+    ImportCorrespondingMeshes(settings, files, folder);
   }
-  writer.Finish();
 }
 
 }  // namespace vitruvia

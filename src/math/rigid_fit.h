@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "math/rigid.h"
+#include "math/rotation.h"
 
 namespace vitruvia {
 

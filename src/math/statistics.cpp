@@ -2,10 +2,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "core/error.h"
 
 namespace vitruvia {
+namespace {
+
+// From 1; equal values share the mean of their ranks.
+std::vector<double> Ranks(std::span<const double> values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t i, std::size_t j) { return values[i] < values[j]; });
+  std::vector<double> ranks(values.size());
+  for (std::size_t begin = 0; begin < order.size();) {
+    std::size_t end = begin + 1;
+    while (end < order.size() && values[order[end]] == values[order[begin]]) ++end;
+    for (std::size_t k = begin; k < end; ++k)
+      ranks[order[k]] = 0.5 * static_cast<double>(begin + 1 + end);
+    begin = end;
+  }
+  return ranks;
+}
+
+}  // namespace
 
 double Quantile(std::vector<double> values, double share) {
   Require(!values.empty(), "Quantile of an empty sample");
@@ -25,6 +47,22 @@ double Mean(std::span<const double> values) {
 
 double Maximum(std::span<const double> values) {
   return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
+}
+
+double RankCorrelation(std::span<const double> a, std::span<const double> b) {
+  constexpr std::size_t kFewestPairs = 3;
+  Require(a.size() == b.size(), "RankCorrelation of {} and {} values", a.size(), b.size());
+  const std::vector<double> x = Ranks(a), y = Ranks(b);
+  const double mean = 0.5 * (static_cast<double>(a.size()) + 1.0);
+  double xy = 0.0, xx = 0.0, yy = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    xy += (x[i] - mean) * (y[i] - mean);
+    xx += (x[i] - mean) * (x[i] - mean);
+    yy += (y[i] - mean) * (y[i] - mean);
+  }
+  if (a.size() < kFewestPairs || xx == 0.0 || yy == 0.0)
+    return std::numeric_limits<double>::quiet_NaN();
+  return xy / std::sqrt(xx * yy);
 }
 
 std::vector<double> PresentValues(std::span<const double> values) {

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "math/rigid_fit.h"
+#include "math/rotation.h"
 
 namespace vitruvia {
 namespace {

@@ -500,6 +500,204 @@ std::vector<Metric> SolverDiagnostics() {
   };
 }
 
+// What the camera saw against the estimate: no truth is needed.
+std::vector<Metric> ObservationErrors() {
+  return {
+      {.key = "fit_m",
+       .label = "misfit to the observation",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .shown_in = {kSummaryTable, kVariantTable, kTerminal},
+       .definition = "The mean of fit_points_mean_m and fit_model_mean_m, per frame; in a summary "
+                     "row the mean over the frames in which the person is measured."},
+      {.key = "fit_points_mean_m",
+       .label = "observed points to model, mean",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "Distance of each observed point of the person to the nearest place of the "
+                     "estimated surface: the mean, per frame and over all frames."},
+      {.key = "fit_points_median_m",
+       .label = "observed points to model, median",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "The median of the distances whose mean is fit_points_mean_m."},
+      {.key = "fit_points_p95_m",
+       .label = "observed points to model, 95th percentile",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "The 95th percentile of the distances whose mean is fit_points_mean_m."},
+      {.key = "fit_model_mean_m",
+       .label = "visible model to observed points, mean",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "Distance of each vertex of the estimate that would be visible to the nearest "
+                     "observed point of the person: the mean, per frame and over all frames."},
+      {.key = "fit_model_median_m",
+       .label = "visible model to observed points, median",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "The median of the distances whose mean is fit_model_mean_m."},
+      {.key = "fit_model_p95_m",
+       .label = "visible model to observed points, 95th percentile",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "The 95th percentile of the distances whose mean is fit_model_mean_m."},
+      {.key = "silhouette_overlap",
+       .label = "overlap of silhouettes",
+       .unit = "%",
+       .scale = 1e2,
+       .decimals = 1,
+       .better = Better::kHigher,
+       .shown_in = {kSummaryTable, kTerminal},
+       .definition = "Pixels that the rendered estimate and the measured person share, divided by "
+                     "the pixels that either has; holes of the measurement count against it."},
+      {.key = "points_unexplained",
+       .label = "unexplained points",
+       .unit = "%",
+       .scale = 1e2,
+       .decimals = 1,
+       .better = Better::kLower,
+       .shown_in = {kSummaryTable, kTerminal},
+       .definition = "Share of the observed points of the person that lie farther than 5 cm from "
+                     "the estimated surface."},
+      {.key = "model_in_front",
+       .label = "model in front of the data",
+       .unit = "%",
+       .scale = 1e2,
+       .decimals = 1,
+       .better = Better::kLower,
+       .shown_in = {kSummaryTable, kTerminal},
+       .definition =
+           "Share of the pixels of the rendered estimate with a measurement, of the person or of "
+           "the room, more than 5 cm behind it: the camera looked through where the estimate is."},
+      {.key = "limb_length_change",
+       .label = "change of limb lengths",
+       .unit = "%",
+       .scale = 1e2,
+       .decimals = 1,
+       .better = Better::kLower,
+       .definition = "Largest deviation of a limb (upper arm, forearm, thigh, shin) from its "
+                     "median length over the run, divided by that length; a person has none."},
+      {.key = "limb_asymmetry",
+       .label = "difference between left and right limbs",
+       .unit = "%",
+       .scale = 1e2,
+       .decimals = 1,
+       .better = Better::kLower,
+       .definition = "Largest difference between the median lengths of a left and the right limb, "
+                     "divided by their mean."},
+      {.key = "view_mean_m",
+       .label = "second view to model, mean",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .shown_in = {kSummaryTable, kTerminal},
+       .definition = "Distance of the points that a second calibrated camera saw, and the first "
+                     "one could not see, to the nearest place of the estimated surface: the mean, "
+                     "per frame and over all frames."},
+      {.key = "view_median_m",
+       .label = "second view to model, median",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "The median of the distances whose mean is view_mean_m."},
+      {.key = "view_p95_m",
+       .label = "second view to model, 95th percentile",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "The 95th percentile of the distances whose mean is view_mean_m."},
+      {.key = "fit_rank_correlation",
+       .label = "rank correlation of misfit and visible error",
+       .decimals = 2,
+       .better = Better::kHigher,
+       .definition =
+           "Spearman correlation over the frames of a run between fit_m and the true error of the "
+           "visible surface, l2_mean_visible_m or two_way_visible_mean_m: how well the misfit "
+           "orders frames by what the camera could show."},
+      {.key = "fit_rank_correlation_whole",
+       .label = "rank correlation of misfit and whole error",
+       .decimals = 2,
+       .better = Better::kHigher,
+       .definition = "As fit_rank_correlation, with the error of the whole surface, l2_mean_m or "
+                     "two_way_mean_m; nothing observed tells where hidden parts are."},
+  };
+}
+
+// Distance in both directions to a true surface that has its own triangles in each frame.
+std::vector<Metric> OwnSurfaceErrors() {
+  return {
+      {.key = "two_way_mean_m",
+       .label = "two-way distance to the true surface, mean",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .shown_in = {kSummaryTable, kVariantTable, kComparison, kTerminal},
+       .definition = "Distance from the vertices of the estimate to the true surface of the frame, "
+                     "and from the vertices of the true surface to the estimate, without "
+                     "correspondence: the mean of the two means, per frame and over all frames."},
+      {.key = "two_way_p95_m",
+       .label = "two-way distance to the true surface, 95th percentile",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition =
+           "The 95th percentile of the distances of both directions that two_way_mean_m averages."},
+      {.key = "two_way_visible_mean_m",
+       .label = "two-way distance to the true surface, mean of the visible part",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .shown_in = {kSummaryTable, kVariantTable, kComparison, kTerminal},
+       .definition =
+           "As two_way_mean_m, over the vertices of each surface that the camera would see of it."},
+      {.key = "two_way_visible_p95_m",
+       .label = "two-way distance to the true surface, 95th percentile of the visible part",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "The 95th percentile of the distances of both directions that "
+                     "two_way_visible_mean_m averages."},
+      {.key = "to_truth_mean_m",
+       .label = "estimate to true surface, mean",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "Distance from the vertices of the estimate to the nearest place of the true "
+                     "surface of the frame."},
+      {.key = "from_truth_mean_m",
+       .label = "true surface to estimate, mean",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "Distance from the vertices of the true surface of the frame to the nearest "
+                     "place of the estimate."},
+  };
+}
+
 }  // namespace
 
 const std::vector<Metric>& MetricCatalogue() {
@@ -507,7 +705,8 @@ const std::vector<Metric>& MetricCatalogue() {
     std::vector<Metric> all;
     for (const auto& entries :
          {IdentityColumns(), FrameCounts(), CorrespondingPointErrors(), NearestPointErrors(),
-          JointErrorMetrics(), MotionErrors(), BodyErrors(), Costs(), SolverDiagnostics()})
+          OwnSurfaceErrors(), ObservationErrors(), JointErrorMetrics(), MotionErrors(),
+          BodyErrors(), Costs(), SolverDiagnostics()})
       all.insert(all.end(), entries.begin(), entries.end());
     return all;
   }();

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "math/rigid.h"
+#include "math/vector.h"
 
 namespace vitruvia {
 

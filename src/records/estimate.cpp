@@ -10,6 +10,7 @@
 #include "core/files.h"
 #include "core/write_failure.h"
 #include "geometry/mesh_io.h"
+#include "math/rigid.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;

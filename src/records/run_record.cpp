@@ -106,6 +106,10 @@ void RunRecord::Describe(Fields& f) {
                        "without a true surface",
             .unit = "m",
             .optional = true});
+  f.Texts("warnings", warnings,
+          {.meaning = "what was told of the sequence and the subject before the first frame: by "
+                      "the program that made the sequence, and by its verification",
+           .optional = true});
 }
 
 // Version 0 wrote a diagonal of 0 where there was no true surface.

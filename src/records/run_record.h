@@ -61,6 +61,7 @@ struct RunRecord {
   };
   std::vector<Step> steps;      // per frame, in the method's order
   double diagonal_m = kAbsent;  // of the true subject's rest-pose bounding box
+  std::vector<std::string> warnings;  // of the sequence's making and of its verification
 
   void Describe(Fields& fields);
   std::string Problem() const;

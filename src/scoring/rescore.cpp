@@ -36,6 +36,7 @@ RunRecord Rescored(const fs::path& experiment_folder, const RunRecord& record) {
   fresh.sequence_hash = record.sequence_hash;
   fresh.config = record.config;
   fresh.provenance = record.provenance;
+  fresh.warnings = record.warnings;
   fresh.provenance["rescored_by"] = Provenance();
   fresh.summary = nlohmann::json::object();
   for (const char* key : {"run_id", "variant", "scene", "seed", "method", "repeat"}) {

@@ -26,9 +26,11 @@ FrameState StateOf(double failed, double visible_error_m) {
 // frames_lost: lost frames. frames_to_recover: the most lost frames between two tracked ones; -1 if
 // the subject was not found again before the end. Both only where there is a true surface.
 void SummarizeLosses(const RunRecord& record, nlohmann::json& row) {
-  if (!record.frames.contains("l2_mean_visible_m")) return;
+  const bool corresponding = record.frames.contains("l2_mean_visible_m");
+  if (!corresponding && !record.frames.contains("two_way_visible_mean_m")) return;
   const auto& failed = record.frames.at("failed");
-  const auto& error_m = record.frames.at("l2_mean_visible_m");
+  const auto& error_m =
+      record.frames.at(corresponding ? "l2_mean_visible_m" : "two_way_visible_mean_m");
   int lost = 0, run = 0, longest = 0;
   for (std::size_t i = 0; i < failed.size(); ++i) {
     const FrameState state = StateOf(failed[i], error_m[i]);

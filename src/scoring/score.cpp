@@ -7,6 +7,8 @@
 #include "core/error.h"
 #include "math/statistics.h"
 #include "scoring/joint_score.h"
+#include "scoring/observation_score.h"
+#include "scoring/own_surface_score.h"
 #include "scoring/run_health.h"
 #include "scoring/surface_score.h"
 
@@ -18,6 +20,18 @@ void RequireSameFrames(const SequenceReader& sequence, const EstimateReader& est
   throw DataError(fmt::format("{}: the estimate has {} frames, the sequence {}",
                               sequence.folder().string(), estimate.frames().size(),
                               sequence.info().frames));
+}
+
+bool HoldsAgainstObservation(const ScoreSettings& settings, const SequenceInfo& info) {
+  switch (settings.against_observation) {
+    case AgainstObservation::kWithoutTruth:
+      return !info.surface && !info.own_surfaces;
+    case AgainstObservation::kAlways:
+      return true;
+    case AgainstObservation::kNever:
+      return false;
+  }
+  return false;
 }
 
 constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
@@ -63,7 +77,8 @@ std::vector<RunRecord::Step> StepTimes(const EstimateReader& estimate) {
 std::string NotScored(const SequenceInfo& info) {
   const UnmatchedJoints unmatched = FindUnmatchedJoints(info.joints);
   std::vector<std::string> parts;
-  if (!info.surface) parts.emplace_back("surface: the sequence has no true surface");
+  if (!info.surface && !info.own_surfaces)
+    parts.emplace_back("surface: the sequence has no true surface");
   if (info.joints.empty()) {
     parts.emplace_back("joints: the sequence has no true joints");
   } else if (!unmatched.only_in_skeleton.empty()) {
@@ -104,13 +119,23 @@ void ScoreSettings::Describe(Fields& f) {
        .min = 0,
        .max = 1e6,
        .origin = Origin::kInput});
+  f.Choice("against_observation", against_observation,
+           {{"without_truth", AgainstObservation::kWithoutTruth},
+            {"always", AgainstObservation::kAlways},
+            {"never", AgainstObservation::kNever}},
+           {.meaning = "when the estimate is held against what the camera saw: where the sequence "
+                       "has no true surface, always, or never",
+            .origin = Origin::kInput});
 }
 
 void ScoreRun(const SequenceReader& sequence, const EstimateReader& estimate,
               const ScoreSettings& settings, RunRecord& record) {
   RequireSameFrames(sequence, estimate);
   ScoreSurfaces(sequence, estimate, settings.reconstruction_every, record);
+  ScoreOwnSurfaces(sequence, estimate, record);
   ScoreJoints(sequence, estimate, record);
+  if (HoldsAgainstObservation(settings, sequence.info()))
+    ScoreObservation(sequence, estimate, record);
   RecordOutcomes(estimate, record);
   record.steps = StepTimes(estimate);
   SummarizeRun(sequence.info(), record);

@@ -15,8 +15,16 @@ inline constexpr double kVisibleWithin_m = 0.01;
 inline constexpr double kJointThreshold_m = 0.1;
 inline constexpr double kCurveStep_m = 0.005, kCurveLast_m = 0.3;
 
+// When the estimate is held against what the camera saw.
+enum class AgainstObservation {
+  kWithoutTruth,  // where the sequence has no true surface
+  kAlways,
+  kNever,
+};
+
 struct ScoreSettings {
   int reconstruction_every = 0;  // frames; 0: not measured
+  AgainstObservation against_observation = AgainstObservation::kWithoutTruth;
 
   void Describe(Fields& fields);
 };

@@ -5,7 +5,7 @@
 
 #include "geometry/camera.h"
 #include "geometry/image.h"
-#include "math/rigid.h"
+#include "math/vector.h"
 
 namespace vitruvia {
 

@@ -8,6 +8,10 @@
 //   truth/mesh.ply       triangles and rest pose (subject frame) of the true surface
 //   truth/vertices.bin   float32 [frames][vertices][3], camera frame, metres, little-endian
 //   subject/             what a tracker may know (see body/body_model.h)
+//   empty_room/000000.png   optional: depth of the room without a person, any number of frames
+//   preview.png          optional: pictures for people
+//   truth/surfaces/000000.ply  version 2: a true surface with its own triangles in each frame
+//   views/NAME/000000.png      version 2: depth of other calibrated cameras
 //
 // True joints, the true surface and the subject are there or not, as sequence.json says.
 //
@@ -15,9 +19,11 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -25,8 +31,29 @@
 #include "body/body_model.h"
 #include "geometry/camera.h"
 #include "geometry/image.h"
+#include "math/rigid.h"
 
 namespace vitruvia {
+
+class WorkerTeam;
+
+// Another camera that recorded the same frames; no tracker sees it.
+struct OtherView {
+  std::string name;  // of its folder in views/
+  PinholeCamera camera;
+  Rigidd view_from_camera;  // the sequence's camera frame to the view's
+
+  void Describe(Fields& fields);
+  std::string Problem() const;
+};
+
+// A joint of the skeleton as it is known for the first frame.
+struct StartJoint {
+  std::string joint;
+  Vector3<double> position = Vector3<double>::Zero();  // camera frame, metres
+
+  void Describe(Fields& fields);
+};
 
 struct SequenceInfo {
   PinholeCamera camera;
@@ -36,6 +63,11 @@ struct SequenceInfo {
   std::vector<std::string> joints;  // names, in the order of truth/joints.json; none: no such file
   bool surface = true;              // whether the true surface is there: mesh.ply and vertices.bin
   bool subject = true;              // whether there is a subject/
+  // Version 2. A true surface of its own triangles in each frame, instead of `surface`.
+  bool own_surfaces = false;
+  std::vector<OtherView> views;
+  std::vector<StartJoint> start_pose;  // what a tracker may know of the first frame; empty: nothing
+  double start_pose_accuracy_m = std::numeric_limits<double>::quiet_NaN();
   nlohmann::json provenance = nlohmann::json::object();  // how it was made; free form
 };
 
@@ -60,10 +92,15 @@ class SequenceReader {
   // DataError that says what to do if the sequence has none.
   const BodyModel& subject() const;
   DepthImage ReadDepth(int frame) const;  // mask applied where there is one
+  bool has_masks() const { return has_masks_; }
+  MaskImage ReadMask(int frame) const;            // only where there are masks
+  DepthImage ReadDepthWithRoom(int frame) const;  // no mask applied
   // Only where info() says that there are true joints or a true surface.
   const JointTruth& true_joints(int frame) const;
   const TriangleMesh& true_rest_mesh() const;
   std::vector<Vector3f> ReadTrueVertices(int frame) const;
+  TriangleMesh ReadTrueSurface(int frame) const;        // camera frame; only with own_surfaces
+  DepthImage ReadViewDepth(int view, int frame) const;  // of info().views[view]
   // Of every file's name and content, in sorted order, 16 hex digits. The provenance is left out:
   // the same data made again by another build has the same hash.
   std::string hash() const;
@@ -81,7 +118,7 @@ class SequenceReader {
   std::vector<JointTruth> true_joints_;
 };
 
-// Writes a sequence whole or not at all: everything goes to a temporary folder that Finish() moves
+// Writes a sequence whole or not at all: everything goes to a temporary folder that Publish() moves
 // into place.
 class SequenceWriter {
  public:
@@ -92,13 +129,31 @@ class SequenceWriter {
                  const std::optional<BodyModel>& subject);
   ~SequenceWriter();
 
-  // Sizes must be those of the camera, the mesh and info.joints; values must be finite.
+  // Sizes must be those of the camera, the mesh and info.joints; values must be finite. DataError
+  // with counts if depth does not fit 16 bits of info.depth_unit_m.
   void Append(const DepthImage& depth, const std::vector<Vector3f>& true_vertices,
               const JointTruth& joints);
   void Append(const DepthImage& depth, const JointTruth& joints);
+  // With a true surface of the frame's own triangles, camera frame.
+  void Append(const DepthImage& depth, const TriangleMesh& true_surface, const JointTruth& joints);
+  // Frames of a sequence without any truth, written by all threads of the team.
+  void Append(const std::vector<DepthImage>& depths, WorkerTeam& team);
+  // The mask of a frame that was appended: all frames have one or none has. Several threads may
+  // write masks of different frames.
+  void WriteMask(int frame, const MaskImage& mask) const;
+  // Depth of info.views[view].
+  void WriteViewDepth(int view, int frame, const DepthImage& depth) const;
+  // A frame of the room without a person, from 0.
+  void WriteEmptyRoom(int frame, const DepthImage& depth) const;
+  // Pictures for people, as the bytes of a PNG file.
+  void WritePreview(std::string_view png) const;
   // Adds what only came to light on the way to the provenance.
   void Note(const std::string& key, nlohmann::json value);
-  void Finish();  // throws std::logic_error unless exactly info.frames frames were appended
+  // Writes what remains after the last frame. Returns the temporary folder, where the sequence can
+  // be read and checked. std::logic_error unless exactly info.frames frames were appended.
+  std::filesystem::path Complete();
+  void Publish();  // after Complete(); things may be noted in between
+  void Finish();   // both
 
  private:
   struct State;

@@ -1,10 +1,15 @@
 #include "sequence/sequence_files.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <set>
+#include <span>
 
+#include "body/skeleton.h"
 #include "config/stored_data.h"
 #include "core/error.h"
+#include "math/rigid.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -15,7 +20,7 @@ constexpr int kMostFrames = 1000000;  // six digits in the names of frames
 // sequence.json. Everything that a reader relies on must be there: a default taken for a camera
 // that the file does not state would spoil every number that follows.
 struct SequenceHeader {
-  static constexpr StoredFormat kFormat{kSequenceFormat, kSequenceVersion, kSequenceVersion,
+  static constexpr StoredFormat kFormat{kSequenceFormat, kSequenceVersion, kFirstSequenceVersion,
                                         "write the sequence again"};
 
   SequenceInfo info;
@@ -37,6 +42,22 @@ struct SequenceHeader {
            {.meaning = "whether there is a true surface: truth/mesh.ply and truth/vertices.bin",
             .optional = true});
     f.Flag("subject", info.subject, {.meaning = "whether there is a subject/", .optional = true});
+    f.Flag("own_surfaces", info.own_surfaces,
+           {.meaning = "whether there is a true surface with triangles of its own in each frame: "
+                       "truth/surfaces/",
+            .optional = true});
+    f.List("views", info.views,
+           {.meaning = "other calibrated cameras that recorded the same frames: views/",
+            .optional = true});
+    f.List("start_pose", info.start_pose,
+           {.meaning = "joints in the first frame, as far as a tracker may know them",
+            .optional = true});
+    f.Number("start_pose_accuracy_m", info.start_pose_accuracy_m,
+             {.meaning = "standard deviation of the start pose's joints",
+              .unit = "m",
+              .min = 0.0,
+              .max = 1.0,
+              .optional = true});
     f.FreeJson("provenance", info.provenance,
                {.meaning = "how the sequence was made", .optional = true});
   }
@@ -114,7 +135,51 @@ JointsOfFrame JointsOf(const JointTruth& truth) {
 
 }  // namespace
 
+void OtherView::Describe(Fields& f) {
+  f.Text("name", name, {.meaning = "name of the view's folder"});
+  f.Section("camera", camera, {.meaning = "intrinsics of the view"});
+  std::array<double, 9> rotation{};
+  for (int i = 0; i < 9; ++i)
+    rotation[static_cast<std::size_t>(i)] = view_from_camera.rotation(i / 3, i % 3);
+  f.Numbers("rotation", rotation,
+            {.meaning = "rotation of view_from_camera, row by row: a point p of the sequence's "
+                        "camera frame is rotation p + translation in the view's"});
+  for (int i = 0; i < 9; ++i)
+    view_from_camera.rotation(i / 3, i % 3) = rotation[static_cast<std::size_t>(i)];
+  std::array<double, 3> translation{};
+  std::copy_n(view_from_camera.translation.data(), 3, translation.data());
+  f.Numbers("translation", translation,
+            {.meaning = "translation of view_from_camera", .unit = "m"});
+  std::copy_n(translation.data(), 3, view_from_camera.translation.data());
+}
+
+std::string OtherView::Problem() const {
+  constexpr double kOrthonormalWithin = 1e-4;
+  const Matrix3<double>& r = view_from_camera.rotation;
+  const double off = (r.transpose() * r - Matrix3<double>::Identity()).cwiseAbs().maxCoeff();
+  if (off > kOrthonormalWithin || r.determinant() < 0.0)
+    return fmt::format(
+        "rotation: expected a rotation; RᵀR differs from the identity by {:.2g}, the "
+        "determinant is {:.3g}",
+        off, r.determinant());
+  const bool is_plain = !name.empty() && name != "." && name != ".." &&
+                        name.find_first_of("/\\") == std::string::npos;
+  return is_plain ? "" : fmt::format("name \"{}\": expected the name of a folder", name);
+}
+
+void StartJoint::Describe(Fields& f) {
+  f.Text("joint", joint, {.meaning = "name of a joint of the skeleton"});
+  f.Numbers("position", std::span(position.data(), 3),
+            {.meaning = "position in the camera frame", .unit = "m"});
+}
+
 std::string SequenceFiles::FrameName(int frame) { return fmt::format("{:06}.png", frame); }
+std::string SequenceFiles::SurfaceName(int frame) { return fmt::format("{:06}.ply", frame); }
+
+int VersionOf(const SequenceInfo& info) {
+  const bool says_more = info.own_surfaces || !info.views.empty() || !info.start_pose.empty();
+  return says_more ? kSequenceVersion : kFirstSequenceVersion;
+}
 
 std::string SequenceInfoProblem(const SequenceInfo& info) {
   if (info.camera.width < 1 || info.camera.height < 1) {
@@ -131,6 +196,14 @@ std::string SequenceInfoProblem(const SequenceInfo& info) {
     if (name.empty()) return "joints: a name is empty";
     if (!names.insert(name).second) return fmt::format("joints: \"{}\" stands twice", name);
   }
+  if (info.surface && info.own_surfaces)
+    return "own_surfaces: there is a true surface with corresponding vertices already (surface)";
+  for (const StartJoint& start : info.start_pose) {
+    if (FindJoint(start.joint) < 0)
+      return fmt::format("start_pose: the skeleton has no joint \"{}\"", start.joint);
+  }
+  if (info.start_pose.empty() != std::isnan(info.start_pose_accuracy_m))
+    return "start_pose and start_pose_accuracy_m: expected both or none";
   return "";
 }
 
@@ -141,11 +214,12 @@ SequenceInfo ReadSequenceInfo(const fs::path& file) {
 Json SequenceInfoJson(const SequenceInfo& info) {
   Json json = StoredJson(SequenceHeader{info});
   json["format"] = kSequenceFormat;
-  json["version"] = kSequenceVersion;
+  json["version"] = VersionOf(info);
   json["provenance"] = info.provenance;  // also an empty one: the hash of a sequence depends on it
   // Written only where something is missing, so that complete sequences keep their hash.
   if (info.surface) json.erase("surface");
   if (info.subject) json.erase("subject");
+  if (!info.own_surfaces) json.erase("own_surfaces");
   return json;
 }
 

@@ -11,7 +11,8 @@
 namespace vitruvia {
 
 inline constexpr const char* kSequenceFormat = "vitruvia-sequence";
-inline constexpr int kSequenceVersion = 1;
+inline constexpr int kSequenceVersion = 2;  // the newest that is written and read
+inline constexpr int kFirstSequenceVersion = 1;
 
 // Where the parts of a sequence lie.
 struct SequenceFiles {
@@ -22,18 +23,33 @@ struct SequenceFiles {
   std::filesystem::path Depth(int frame) const { return DepthFolder() / FrameName(frame); }
   std::filesystem::path MaskFolder() const { return folder / "mask"; }
   std::filesystem::path Mask(int frame) const { return MaskFolder() / FrameName(frame); }
+  std::filesystem::path EmptyRoomFolder() const { return folder / "empty_room"; }
+  std::filesystem::path EmptyRoom(int frame) const { return EmptyRoomFolder() / FrameName(frame); }
+  std::filesystem::path Preview() const { return folder / "preview.png"; }
   std::filesystem::path TruthFolder() const { return folder / "truth"; }
   std::filesystem::path Joints() const { return TruthFolder() / "joints.json"; }
   std::filesystem::path Mesh() const { return TruthFolder() / "mesh.ply"; }
   std::filesystem::path Vertices() const { return TruthFolder() / "vertices.bin"; }
+  std::filesystem::path SurfaceFolder() const { return TruthFolder() / "surfaces"; }
+  std::filesystem::path Surface(int frame) const { return SurfaceFolder() / SurfaceName(frame); }
+  std::filesystem::path ViewFolder(const std::string& view) const {
+    return folder / "views" / view;
+  }
+  std::filesystem::path ViewDepth(const std::string& view, int frame) const {
+    return ViewFolder(view) / FrameName(frame);
+  }
   std::filesystem::path Subject() const { return folder / "subject"; }
 
-  static std::string FrameName(int frame);  // 000000.png
+  static std::string FrameName(int frame);    // 000000.png
+  static std::string SurfaceName(int frame);  // 000000.ply
 };
 
 // sequence.json. Both throw DataError naming the key where a value is missing or wrong.
 SequenceInfo ReadSequenceInfo(const std::filesystem::path& file);
 Json SequenceInfoJson(const SequenceInfo& info);
+// The oldest version of the format that can say what `info` says: readers of that version
+// understand the sequence.
+int VersionOf(const SequenceInfo& info);
 // "" or why no sequence can be as `info` says.
 std::string SequenceInfoProblem(const SequenceInfo& info);
 

@@ -21,9 +21,10 @@ static_assert(sizeof(Vector3f) == 3 * sizeof(float));
 
 // A frame missing in the middle and one too many at the end are both the mark of a sequence that
 // was put together wrongly; a folder must hold exactly the frames that the header promises.
-void CheckFrameFiles(const fs::path& folder, int frames) {
+void CheckFrameFiles(const fs::path& folder, int frames,
+                     std::string (*name_of)(int) = SequenceFiles::FrameName) {
   for (int i = 0; i < frames; ++i) {
-    const fs::path file = folder / SequenceFiles::FrameName(i);
+    const fs::path file = folder / name_of(i);
     if (!fs::is_regular_file(file)) {
       throw DataError(fmt::format("{}: frame {} is missing; sequence.json promises {} frames",
                                   file.string(), i, frames));
@@ -33,7 +34,7 @@ void CheckFrameFiles(const fs::path& folder, int frames) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     surplus.insert(entry.path().filename().string());
   }
-  for (int i = 0; i < frames; ++i) surplus.erase(SequenceFiles::FrameName(i));
+  for (int i = 0; i < frames; ++i) surplus.erase(name_of(i));
   if (!surplus.empty()) {
     throw DataError(fmt::format("{}: not part of the {} frames that sequence.json promises",
                                 (folder / *surplus.begin()).string(), frames));
@@ -85,11 +86,15 @@ SequenceReader::SequenceReader(fs::path folder) : folder_(std::move(folder)) {
   const SequenceFiles files{folder_};
   info_ = ReadSequenceInfo(files.Header());
   RequireFolder(files.DepthFolder(), true);
-  RequireFolder(files.TruthFolder(), info_.surface || !info_.joints.empty());
+  RequireFolder(files.TruthFolder(), info_.surface || info_.own_surfaces || !info_.joints.empty());
   RequireFolder(files.Subject(), info_.subject);
   CheckFrameFiles(files.DepthFolder(), info_.frames);
   has_masks_ = fs::exists(files.MaskFolder());
   if (has_masks_) CheckFrameFiles(files.MaskFolder(), info_.frames);
+  for (const OtherView& view : info_.views) {
+    RequireFolder(files.ViewFolder(view.name), true);
+    CheckFrameFiles(files.ViewFolder(view.name), info_.frames);
+  }
   ReadTruth();
   if (info_.subject) subject_ = ReadBodyModel(files.Subject());
 }
@@ -101,6 +106,9 @@ void SequenceReader::ReadTruth() {
   } else {
     true_joints_ = ReadJointTruth(files.Joints(), info_);
   }
+  RequireFolder(files.SurfaceFolder(), info_.own_surfaces);
+  if (info_.own_surfaces)
+    CheckFrameFiles(files.SurfaceFolder(), info_.frames, SequenceFiles::SurfaceName);
   if (!info_.surface) {
     for (const fs::path& file : {files.Mesh(), files.Vertices()})
       RequireAbsent(file, "surface is false");
@@ -132,13 +140,21 @@ void SequenceReader::RequireFrame(int frame) const {
           info_.frames);
 }
 
-DepthImage SequenceReader::ReadDepth(int frame) const {
+DepthImage SequenceReader::ReadDepthWithRoom(int frame) const {
   RequireFrame(frame);
-  const SequenceFiles files{folder_};
-  const PinholeCamera& camera = info_.camera;
-  DepthImage depth =
-      ReadDepthPng(files.Depth(frame), info_.depth_unit_m, camera.width, camera.height);
-  if (has_masks_) ApplyMask(ReadMaskPng(files.Mask(frame), camera.width, camera.height), depth);
+  return ReadDepthPng(SequenceFiles{folder_}.Depth(frame), info_.depth_unit_m, info_.camera.width,
+                      info_.camera.height);
+}
+
+MaskImage SequenceReader::ReadMask(int frame) const {
+  RequireFrame(frame);
+  Require(has_masks_, "SequenceReader: {} has no masks", folder_.string());
+  return ReadMaskPng(SequenceFiles{folder_}.Mask(frame), info_.camera.width, info_.camera.height);
+}
+
+DepthImage SequenceReader::ReadDepth(int frame) const {
+  DepthImage depth = ReadDepthWithRoom(frame);
+  if (has_masks_) ApplyMask(ReadMask(frame), depth);
   return depth;
 }
 
@@ -170,6 +186,23 @@ std::vector<Vector3f> SequenceReader::ReadTrueVertices(int frame) const {
   return vertices;
 }
 
+TriangleMesh SequenceReader::ReadTrueSurface(int frame) const {
+  RequireFrame(frame);
+  Require(info_.own_surfaces, "SequenceReader: {} has no surfaces of their own", folder_.string());
+  const fs::path file = SequenceFiles{folder_}.Surface(frame);
+  TriangleMesh surface = ReadMesh(file);
+  if (surface.triangles.empty())
+    throw DataError(fmt::format("{}: expected a surface, found no triangles", file.string()));
+  return surface;
+}
+
+DepthImage SequenceReader::ReadViewDepth(int view, int frame) const {
+  RequireFrame(frame);
+  const OtherView& other = info_.views.at(static_cast<std::size_t>(view));
+  return ReadDepthPng(SequenceFiles{folder_}.ViewDepth(other.name, frame), info_.depth_unit_m,
+                      other.camera.width, other.camera.height);
+}
+
 std::string SequenceReader::hash() const {
   std::set<std::string> names;
   for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
@@ -198,6 +231,9 @@ void VerifySequence(const fs::path& folder) {
   for (int frame = 0; frame < reader.info().frames; ++frame) {
     reader.ReadDepth(frame);
     if (reader.info().surface) reader.ReadTrueVertices(frame);
+    if (reader.info().own_surfaces) reader.ReadTrueSurface(frame);
+    for (std::size_t view = 0; view < reader.info().views.size(); ++view)
+      reader.ReadViewDepth(static_cast<int>(view), frame);
     progress.Advance();
   }
 }

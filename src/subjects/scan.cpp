@@ -8,6 +8,8 @@
 #include "core/timer.h"
 #include "geometry/surface_map.h"
 #include "math/angles.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 #include "math/statistics.h"
 #include "sequence/sequence.h"
 #include "synth/scan/scan_recorder.h"

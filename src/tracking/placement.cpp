@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry/point_sets.h"
 #include "math/angles.h"
+#include "math/rigid.h"
 #include "math/rigid_fit.h"
+#include "math/rotation.h"
 #include "search/kd_tree.h"
 #include "tracking/visibility.h"
 
@@ -16,12 +19,6 @@ struct Match {
   Vector3d observed;  // camera frame
   float squared_distance;
 };
-
-Vector3d Mean(const std::vector<Vector3f>& points) {
-  Vector3d sum = Vector3d::Zero();
-  for (const Vector3f& p : points) sum += p.cast<double>();
-  return sum / static_cast<double>(points.size());
-}
 
 Rigidd RigidFit(const std::vector<Match>& matches) {
   return FitRigid(matches.size(), [&](std::size_t i) {
@@ -55,7 +52,7 @@ Rigidd Displaced(const Rigidd& camera_from_subject, const PlacementSettings& set
 // Facing the camera: the subject's up is the image's up, its front looks back along the view.
 Rigidd CentroidOnCentroid(const RestSurface& rest, const PointCloud& cloud) {
   const Matrix3<double> rotation = Vector3d(1.0, -1.0, -1.0).asDiagonal();
-  return {rotation, Mean(cloud.points) - rotation * Mean(rest.vertices)};
+  return {rotation, Centroid(cloud.points) - rotation * Centroid(rest.vertices)};
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "math/rotation.h"
+
 namespace vitruvia {
 
 std::vector<Matrix3<double>> HypothesisRotations() {

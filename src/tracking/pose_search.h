@@ -5,7 +5,7 @@
 #include <concepts>
 #include <vector>
 
-#include "math/rigid.h"
+#include "math/vector.h"
 #include "tracking/agreement.h"
 
 namespace vitruvia {

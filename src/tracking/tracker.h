@@ -9,6 +9,7 @@
 #include "body/body_model.h"
 #include "geometry/camera.h"
 #include "geometry/image.h"
+#include "math/rigid.h"
 
 namespace vitruvia {
 

@@ -77,19 +77,15 @@ void Add(const Agreement& frame, Agreement& sum) {
   sum.ratios.insert(sum.ratios.end(), frame.ratios.begin(), frame.ratios.end());
 }
 
-MirrorVotes VoteOnMirror(const DepthImage& measured, const DepthImage& rendered) {
-  MirrorVotes votes;
-  const int width = rendered.width();
-  for (int v = 0; v < rendered.height(); ++v) {
-    for (int u = 0; u < width; ++u) {
-      const float truth = rendered(u, v), mirror = rendered(width - 1 - u, v);
-      if (IsSame(truth, mirror)) continue;
-      const float z = measured(u, v);
-      votes.for_truth += IsSame(z, truth) ? 1 : 0;
-      votes.for_mirror += IsSame(z, mirror) ? 1 : 0;
-    }
+void Vote(const DepthImage& measured, const DepthImage& rendered, const DepthImage& mirrored,
+          MirrorVotes& votes) {
+  for (std::size_t i = 0; i < rendered.pixels().size(); ++i) {
+    const float truth = rendered.pixels()[i], mirror = mirrored.pixels()[i];
+    if (IsSame(truth, mirror)) continue;
+    const float z = measured.pixels()[i];
+    votes.for_truth += IsSame(z, truth) ? 1 : 0;
+    votes.for_mirror += IsSame(z, mirror) ? 1 : 0;
   }
-  return votes;
 }
 
 OutlineDifference CompareOutlines(const DepthImage& measured, const DepthImage& rendered) {

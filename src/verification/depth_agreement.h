@@ -28,11 +28,13 @@ struct Agreement {
 Agreement Compare(const DepthImage& measured, const DepthImage& rendered);
 void Add(const Agreement& frame, Agreement& sum);
 
-// Pixels where the true surface and its mirror image differ, by which of the two the depth has.
+// Pixels where the true surface and its image mirrored or turned differ, by which of the two the
+// depth has.
 struct MirrorVotes {
   long for_truth = 0, for_mirror = 0;
 };
-MirrorVotes VoteOnMirror(const DepthImage& measured, const DepthImage& rendered);
+void Vote(const DepthImage& measured, const DepthImage& rendered, const DepthImage& mirrored,
+          MirrorVotes& votes);
 
 // Outline of the measured pixels against the rendered ones: ratio of the spread along u and v, and
 // how far the centre is shifted along them, in pixels.

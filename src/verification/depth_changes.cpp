@@ -33,6 +33,10 @@ DepthImage TurnedUpsideDown(const DepthImage& depth) {
   return ImageOf(depth, [&](int u, int v) { return depth(u, depth.height() - 1 - v); });
 }
 
+DepthImage TurnedHalfRound(const DepthImage& depth) {
+  return TurnedUpsideDown(MirroredSideways(depth));
+}
+
 DepthImage Scaled(const DepthImage& depth, double factor) {
   return ImageOf(depth, [&](int u, int v) { return static_cast<float>(depth(u, v) * factor); });
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -9,6 +10,7 @@
 #include "verification/checks.h"
 #include "verification/depth_agreement.h"
 #include "verification/depth_cause.h"
+#include "verification/depth_changes.h"
 #include "verification/likely_cause.h"
 #include "verification/limits.h"
 
@@ -16,10 +18,20 @@ namespace vitruvia {
 namespace {
 using namespace verification_limits;
 
+// Ways to mirror or turn an image that leave a standing person much of the same pixels.
+struct ImageTurn {
+  const char* text;
+  DepthImage (*turned)(const DepthImage& depth);
+};
+constexpr std::array<ImageTurn, 3> kImageTurns{
+    {{"mirrored left to right", MirroredSideways},
+     {"upside down, their rows in reverse", TurnedUpsideDown},
+     {"turned by 180 degrees", TurnedHalfRound}}};
+
 // All that frames say together of depth and true surface.
 struct SurfaceComparison {
   Agreement sum;
-  MirrorVotes votes;
+  std::array<MirrorVotes, kImageTurns.size()> votes;
   std::vector<double> scales_u, scales_v, shifts_u_px, shifts_v_px;  // of frames with like outlines
   std::optional<Finding> frame_problem;
 };
@@ -49,9 +61,8 @@ SurfaceComparison CompareWithSurface(const SequenceReader& sequence,
     const Agreement a = Compare(measured, rendered);
     if (a.measured == 0) continue;  // a lost frame
     Add(a, all.sum);
-    const MirrorVotes votes = VoteOnMirror(measured, rendered);
-    all.votes.for_truth += votes.for_truth;
-    all.votes.for_mirror += votes.for_mirror;
+    for (std::size_t k = 0; k < kImageTurns.size(); ++k)
+      Vote(measured, rendered, kImageTurns[k].turned(rendered), all.votes[k]);
     if (!all.frame_problem)
       all.frame_problem = FrameProblem(a, frame, sequence.info().depth_unit_m);
     if (a.both < kFewPixels || a.Silhouette() < kFrameSilhouette) continue;
@@ -62,6 +73,22 @@ SurfaceComparison CompareWithSurface(const SequenceReader& sequence,
     all.shifts_v_px.push_back(outline.shift_v_px);
   }
   return all;
+}
+
+// The turn with the most votes, if these are enough.
+std::optional<Finding> TurnProblem(const std::array<MirrorVotes, kImageTurns.size()>& votes) {
+  const auto most = std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) {
+    return a.for_mirror - a.for_truth < b.for_mirror - b.for_truth;
+  });
+  const bool is_clear =
+      most->for_mirror > kMirrorFewestVotes &&
+      static_cast<double>(most->for_mirror) > kMirrorVotes * static_cast<double>(most->for_truth);
+  if (!is_clear) return std::nullopt;
+  return Impossible(
+      "depth/: the images look {}: where the true surface and its image changed so differ, {} "
+      "pixels have the surface's depth and {} the changed image's",
+      kImageTurns[static_cast<std::size_t>(most - votes.begin())].text, most->for_truth,
+      most->for_mirror);
 }
 
 // What is slightly off although depth and surface agree on the whole.
@@ -105,14 +132,7 @@ Findings CheckAgainstSurface(const SequenceReader& sequence, const std::vector<i
   if (sum.both < kFewPixels || is_elsewhere || sum.AgreeingShare() < kAgreeingShare)
     return {Impossible("depth/: depth and true surface disagree: {}: {}", evidence,
                        CauseOfDisagreement(sequence, sum))};
-  if (all.votes.for_mirror > kMirrorFewestVotes &&
-      static_cast<double>(all.votes.for_mirror) >
-          kMirrorVotes * static_cast<double>(all.votes.for_truth))
-    return {
-        Impossible("depth/: the images look mirrored left to right: where the true surface and "
-                   "its mirror image differ, {} pixels have the surface's depth and {} the "
-                   "mirror image's",
-                   all.votes.for_truth, all.votes.for_mirror)};
+  if (const auto problem = TurnProblem(all.votes)) return {*problem};
   if (all.frame_problem) return {*all.frame_problem};
   Findings findings;
   if (sum.CoveredShare() < kCoveredShare)

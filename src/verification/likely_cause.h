@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "math/rigid.h"
+#include "math/vector.h"
 
 namespace vitruvia {
 

@@ -32,6 +32,8 @@ inline constexpr double kTurnedRestError_m = 0.004;     // mean distance from wh
 // True surface.
 inline constexpr double kEdgeScaleWithin = 0.25;  // median edge, posed / rest
 inline constexpr double kEdgesKeptShare = 0.7;    // of edges within a factor 2 of the median
+inline constexpr double kStrayEdge_m = 0.5;       // of one edge, posed …
+inline constexpr double kStrayEdgeRatio = 10.0;   // … and this many times its length at rest
 inline constexpr double kVolumeShare = 0.2;       // |posed / rest| of a volume that has a sign
 
 // True joints.
@@ -72,8 +74,10 @@ inline constexpr double kCauseGain = 2.0;             // and this many times wha
 inline constexpr double kNearestBody_m = 0.2, kFarthestBody_m = 20.0;  // median depth
 inline constexpr double kApparentSize = 1.6;  // cloud / subject, either way
 
-// How many frames are looked at before a run, and for the cause of a disagreement.
-inline constexpr int kSampledFrames = 8;
+// How many frames are looked at before a run, so that it takes a few percent of the run's time, and
+// for the cause of a disagreement.
+inline constexpr int kFramesPerSample = 40;  // one of so many is looked at before a run …
+inline constexpr int kFewestSampledFrames = 3, kMostSampledFrames = 8;  // … within these
 inline constexpr int kFramesForCause = 4;
 
 }  // namespace vitruvia::verification_limits

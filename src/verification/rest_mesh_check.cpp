@@ -70,6 +70,9 @@ std::string Evidence(const Misfit& misfit) {
       misfit.median_m, misfit.nearly_all_m, kRestMedianWithin_m, kRestNearlyAllWithin_m);
 }
 
+// To centimetres, and never −0.
+double Rounded(double metres) { return std::round(100.0 * metres) / 100.0 + 0.0; }
+
 // What puts the rest mesh in the subject's place.
 std::string CauseOf(const RestComparison& comparison, const Eigen::AlignedBox3d& rest,
                     const Eigen::AlignedBox3d& subject) {
@@ -78,7 +81,7 @@ std::string CauseOf(const RestComparison& comparison, const Eigen::AlignedBox3d&
     return fmt::format(
         "it stands ({:.2f}, {:.2f}, {:.2f}) m away from the subject (x left, y up, "
         "z front); move it there",
-        -shift.x(), -shift.y(), -shift.z());
+        Rounded(-shift.x()), Rounded(-shift.y()), Rounded(-shift.z()));
   const auto about = [&](const AxisMap& map, bool centered) -> Misfit {
     const Vector3d moved = centered
                                ? Vector3d(subject.center() - map.expected_from_file * rest.center())

@@ -27,8 +27,8 @@ std::vector<double> EdgeRatios(const TriangleMesh& rest, const std::vector<Vecto
   return ratios;
 }
 
-std::optional<Finding> ShapeProblem(const TriangleMesh& rest, const std::vector<Vector3f>& posed,
-                                    int frame) {
+std::optional<Finding> EdgeProblem(const TriangleMesh& rest, const std::vector<Vector3f>& posed,
+                                   int frame) {
   const std::vector<double> ratios = EdgeRatios(rest, posed);
   if (ratios.empty()) return std::nullopt;
   const double ratio = Quantile(ratios, 0.5);
@@ -44,6 +44,11 @@ std::optional<Finding> ShapeProblem(const TriangleMesh& rest, const std::vector<
         "{}: frame {}: the vertices are {} for truth/mesh.ply: edges have {:.4g} "
         "times their length at rest in the median{}",
         kVertices, frame, TimesTooLarge(ratio), ratio, LengthUnitCause(ratio));
+  return std::nullopt;
+}
+
+std::optional<Finding> SideProblem(const TriangleMesh& rest, const std::vector<Vector3f>& posed,
+                                   int frame) {
   const double at_rest = EnclosedVolume(rest);
   const double now = EnclosedVolume({posed, rest.triangles});
   if (at_rest > 0.0 && now < -kVolumeShare * at_rest)
@@ -60,6 +65,34 @@ std::optional<Finding> ShapeProblem(const TriangleMesh& rest, const std::vector<
         kVertices, frame, behind, posed.size());
   return std::nullopt;
 }
+
+// Vertices far from where their neighbours are, over all frames.
+struct StrayVertices {
+  int frames = 0, first_frame = 0;
+  std::int32_t vertex = 0;
+  double edge_m = 0.0, rest_edge_m = 0.0;
+
+  // Whether this frame has one.
+  bool Look(const TriangleMesh& rest, const std::vector<Vector3f>& posed, int frame) {
+    for (const Triangle& triangle : rest.triangles) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::int32_t a = triangle[k], b = triangle[(k + 1) % 3];
+        const double length_m = (posed[b] - posed[a]).norm();
+        if (length_m < kStrayEdge_m) continue;
+        const double at_rest_m = (rest.vertices[b] - rest.vertices[a]).norm();
+        if (length_m < kStrayEdgeRatio * at_rest_m) continue;
+        if (frames++ == 0) {
+          first_frame = frame;
+          vertex = a;
+          edge_m = length_m;
+          rest_edge_m = at_rest_m;
+        }
+        return true;
+      }
+    }
+    return false;
+  }
+};
 
 // The vertices of the true surface that lie nearest to each joint of the skeleton at rest.
 struct SkinOfJoints {
@@ -178,14 +211,23 @@ Findings CheckTrueSurface(const SequenceReader& sequence, const std::vector<int>
   const bool has_joints = info.subject && !info.joints.empty();
   const SkinOfJoints skin = has_joints ? FindSkin(sequence) : SkinOfJoints();
   JointPlaces places;
+  StrayVertices strays;
   for (const int frame : frames) {
     const std::vector<Vector3f> vertices = sequence.ReadTrueVertices(frame);
-    if (const auto problem = ShapeProblem(sequence.true_rest_mesh(), vertices, frame))
+    const TriangleMesh& rest = sequence.true_rest_mesh();
+    if (const auto problem = EdgeProblem(rest, vertices, frame)) return {*problem};
+    const bool has_strays = strays.Look(rest, vertices, frame);  // these alone can turn a volume
+    if (const auto problem = has_strays ? std::nullopt : SideProblem(rest, vertices, frame))
       return {*problem};
     if (has_joints) AddFrame(skin, sequence.true_joints(frame), vertices, places);
   }
   if (const auto problem = JointProblem(places, frames.size())) return {*problem};
-  return {};
+  if (strays.frames == 0) return {};
+  return {Warning(
+      "{}: frame {}: an edge at vertex {} is {:.4g} m long, {:.3g} m at rest; {} of {} frames have "
+      "such edges; is a number damaged?",
+      kVertices, strays.first_frame, strays.vertex, strays.edge_m, strays.rest_edge_m,
+      strays.frames, frames.size())};
 }
 
 }  // namespace vitruvia

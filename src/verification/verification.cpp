@@ -18,6 +18,12 @@ bool HasError(const Findings& findings) {
                      [](const Finding& f) { return f.severity == Severity::kError; });
 }
 
+int CountOf(FrameSelection selection, int frames) {
+  using namespace verification_limits;
+  if (selection == FrameSelection::kAll) return frames;
+  return std::clamp(frames / kFramesPerSample, kFewestSampledFrames, kMostSampledFrames);
+}
+
 Findings CheckSubjectOf(const SequenceReader& sequence) {
   if (!sequence.info().subject) return {};
   Findings findings = CheckSubject(sequence.subject());
@@ -30,14 +36,22 @@ Findings CheckRestMeshOf(const SequenceReader& sequence) {
   return CheckRestMesh(sequence.true_rest_mesh(), sequence.subject(), "truth/mesh.ply");
 }
 
+void RefuseErrors(const Findings& findings, const fs::path& shown_as) {
+  for (const Finding& finding : findings) {
+    if (finding.severity == Severity::kError)
+      throw DataError(fmt::format("{}: {}", shown_as.string(), finding.text));
+  }
+}
+
+// Warnings of what came before an error are printed too: they may be its cause.
 std::vector<std::string> Judge(const Findings& findings, const fs::path& shown_as) {
   std::vector<std::string> warnings;
   for (const Finding& finding : findings) {
-    const std::string text = fmt::format("{}: {}", shown_as.string(), finding.text);
-    if (finding.severity == Severity::kError) throw DataError(text);
-    PrintMessage("warning: {}\n", text);
+    if (finding.severity == Severity::kError) continue;
+    PrintMessage("warning: {}: {}\n", shown_as.string(), finding.text);
     warnings.push_back(finding.text);
   }
+  RefuseErrors(findings, shown_as);
   return warnings;
 }
 
@@ -53,9 +67,8 @@ std::vector<int> SpreadFrames(int frames, int count) {
 }
 
 Findings FindInconsistencies(const SequenceReader& sequence, FrameSelection selection) {
-  const int count = sequence.info().frames;
-  const std::vector<int> frames = SpreadFrames(
-      count, selection == FrameSelection::kAll ? count : verification_limits::kSampledFrames);
+  const std::vector<int> frames =
+      SpreadFrames(sequence.info().frames, CountOf(selection, sequence.info().frames));
   const std::function<Findings()> checks[] = {
       [&] { return CheckCamera(sequence.info().camera); },
       [&] { return CheckSubjectOf(sequence); },
@@ -81,6 +94,13 @@ std::vector<std::string> RequireConsistent(const SequenceReader& sequence, Frame
 
 std::vector<std::string> RequireConsistent(const BodyModel& subject, const fs::path& shown_as) {
   return Judge(CheckSubject(subject), shown_as);
+}
+
+void RequireRestMeshOf(const BodyModel& subject, const fs::path& subject_folder,
+                       const TriangleMesh& true_rest, const fs::path& rest_file) {
+  RefuseErrors(CheckSubject(subject), subject_folder);
+  RefuseErrors(CheckRestMesh(true_rest, subject, rest_file.filename().string()),
+               rest_file.parent_path());
 }
 
 }  // namespace vitruvia

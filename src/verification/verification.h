@@ -31,4 +31,9 @@ std::vector<std::string> RequireConsistent(const SequenceReader& sequence, Frame
 std::vector<std::string> RequireConsistent(const BodyModel& subject,
                                            const std::filesystem::path& shown_as);
 
+// Before frames are imported: DataError if the subject or the rest mesh of the frames is of another
+// unit, place, frame of reference or person than the other. Prints nothing.
+void RequireRestMeshOf(const BodyModel& subject, const std::filesystem::path& subject_folder,
+                       const TriangleMesh& true_rest, const std::filesystem::path& rest_file);
+
 }  // namespace vitruvia

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "core/error.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 
 namespace vitruvia {
 namespace {

@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "core/random.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 
 namespace vitruvia {
 namespace {

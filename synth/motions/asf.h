@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "math/angles.h"
-#include "math/rigid.h"
+#include "math/vector.h"
 #include "synth/motions/mocap_words.h"
 
 namespace vitruvia {

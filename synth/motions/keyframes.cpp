@@ -5,6 +5,8 @@
 #include <numeric>
 
 #include "math/angles.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 #include "synth/motions/keyframes_spline.h"
 
 namespace vitruvia {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "math/rotation.h"
 #include "synth/motions/smooth_step.h"
 
 namespace vitruvia {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "math/rotation.h"
 #include "synth/motions/mocap_contact.h"
 #include "synth/motions/mocap_joints.h"
 

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "math/angles.h"
+#include "math/rotation.h"
 #include "synth/motions/bvh.h"
 #include "synth/motions/keyframes.h"
 #include "synth/motions/mocap_retarget.h"

@@ -3,8 +3,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "body/anatomical_pose.h"
 #include "math/angles.h"
-#include "synth/motions/keyframes_pose.h"
+#include "math/rigid.h"
 #include "synth/motions/motion.h"
 
 namespace vitruvia {

@@ -3,6 +3,7 @@
 #include "config/json_settings.h"
 #include "core/build_info.h"
 #include "core/progress.h"
+#include "math/rigid.h"
 #include "sequence/joint_visibility.h"
 #include "sequence/sequence.h"
 #include "synth/scan/scan_recorder.h"

@@ -5,6 +5,8 @@
 
 #include "core/error.h"
 #include "math/angles.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 #include "synth/render/depth_renderer.h"
 
 namespace vitruvia {

@@ -5,6 +5,7 @@
 
 #include "body/body_model.h"
 #include "geometry/image.h"
+#include "math/rigid.h"
 #include "synth/scan/scan_scene.h"
 
 namespace vitruvia {

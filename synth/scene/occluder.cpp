@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/rigid.h"
+
 namespace vitruvia {
 namespace {
 

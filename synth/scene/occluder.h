@@ -5,7 +5,7 @@
 
 #include "config/settings.h"
 #include "geometry/mesh.h"
-#include "math/rigid.h"
+#include "math/vector.h"
 
 namespace vitruvia {
 

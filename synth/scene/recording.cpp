@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <memory>
 
 #include "config/json_settings.h"
 #include "core/build_info.h"
@@ -11,8 +12,10 @@
 #include "core/message.h"
 #include "core/progress.h"
 #include "geometry/surface_map.h"
+#include "math/rigid.h"
 #include "sequence/joint_visibility.h"
 #include "sequence/sequence.h"
+#include "sequence/view_watch.h"
 #include "synth/cloth/garment.h"
 #include "synth/render/depth_renderer.h"
 
@@ -20,31 +23,6 @@ namespace vitruvia {
 namespace {
 
 constexpr double kNearM = 0.2, kFarM = 12.0;  // of the renderer; the body must stay between them
-
-// Counts the frames in which some of the body is out of view.
-class ViewWatch {
- public:
-  explicit ViewWatch(const PinholeCamera& camera) : camera_(camera) {}
-
-  void Look(const std::vector<Vector3f>& vertices_in_camera, int frame) {
-    const bool all_in_view = std::all_of(vertices_in_camera.begin(), vertices_in_camera.end(),
-                                         [this](const auto& p) { return camera_.InView(p); });
-    if (all_in_view) return;
-    if (frames_ == 0) first_ = frame;
-    ++frames_;
-  }
-
-  // "" if the body never left.
-  std::string Warning(int frame_count) const {
-    if (frames_ == 0) return "";
-    return fmt::format("the body leaves the image in {} of {} frames, first in frame {}", frames_,
-                       frame_count, first_);
-  }
-
- private:
-  PinholeCamera camera_;
-  int frames_ = 0, first_ = 0;
-};
 
 // How far the template, moved by the true bones, is from the truth: what remains for a tracker that
 // finds the true pose.
@@ -132,6 +110,11 @@ SequenceInfo Info(const SceneSettings& settings, const BodyModel& truth, const B
   info.fps = settings.fps;
   info.frames = settings.frames;
   for (const BoneInfo& bone : Bones()) info.joints.emplace_back(bone.joint);
+  for (const OtherViewSettings& other : settings.views) {
+    info.views.push_back(
+        {other.name, other.view.camera,
+         CameraFromSubject(other.view) * Inverse(CameraFromSubject(settings.view))});
+  }
   info.provenance = {{"made_by", "vitruvia synth"},
                      {"scene", WriteSettings(settings)},
                      {"truth_differs_from_template", Differences(settings, truth, subject)},
@@ -169,6 +152,15 @@ std::vector<std::string> MotionWarnings(const SceneSettings& settings, const Mot
   return warnings;
 }
 
+// Both as one camera sees them: what is nearer hides the other.
+void PutBehind(const DepthImage& room, DepthImage& depth) {
+  for (std::size_t i = 0; i < depth.pixels().size(); ++i) {
+    const float behind = room.pixels()[i];
+    float& z = depth.pixels()[i];
+    if (z == 0.0f || (behind > 0.0f && behind < z)) z = behind;
+  }
+}
+
 // The scene at any time: its body, dressed and posed, and what a camera without noise sees of it.
 class Stage {
  public:
@@ -178,7 +170,11 @@ class Stage {
         camera_from_subject_(CameraFromSubject(settings.view)),
         garment_(truth, settings.truth.cloth, static_cast<std::uint64_t>(settings.seed)),
         dressed_(truth),
-        renderer_(settings.view.camera, kNearM, kFarM) {}
+        renderer_(settings.view.camera, kNearM, kFarM) {
+    if (!settings.room.IsThere()) return;
+    const TriangleMesh room = RoomMesh(settings.room, camera_from_subject_);
+    room_ = renderer_.Render(room.vertices, room.triangles);
+  }
 
   PosedBody PosedAt(double time_s) {
     const MotionSample sample = motion_.At(time_s);
@@ -188,10 +184,26 @@ class Stage {
     return Pose(dressed_, sample, settings_.truth.skinning, camera_from_subject_);
   }
 
+  // Without a person; empty where the scene has no room.
+  const DepthImage& room() const { return room_; }
+
   DepthImage Rendered(double time_s, const PosedBody& body) {
     TriangleMesh seen{body.vertices, dressed_.rest.triangles};
     AddOccluder(settings_.occluder, time_s, camera_from_subject_, seen);
-    return renderer_.Render(seen.vertices, seen.triangles);
+    DepthImage depth = renderer_.Render(seen.vertices, seen.triangles);
+    if (!room_.empty()) PutBehind(room_, depth);
+    return depth;
+  }
+
+  // Where `depth`, rendered at the same time, shows the body.
+  MaskImage BodyMask(const PosedBody& body, const DepthImage& depth) {
+    const DepthImage alone = renderer_.Render(body.vertices, dressed_.rest.triangles);
+    MaskImage mask(depth.width(), depth.height());
+    for (std::size_t i = 0; i < mask.pixels().size(); ++i) {
+      const float z = alone.pixels()[i];
+      mask.pixels()[i] = z > 0.0f && z <= depth.pixels()[i] ? 255 : 0;
+    }
+    return mask;
   }
 
  private:
@@ -201,6 +213,7 @@ class Stage {
   Garment garment_;
   BodyModel dressed_;  // its surface changes from frame to frame
   DepthRenderer renderer_;
+  DepthImage room_;
 };
 
 // What the sensor delivers of a frame: perhaps late, with noise, or nothing.
@@ -227,6 +240,49 @@ class Sensor {
   std::uint64_t seed_;
   std::vector<bool> lost_;
 };
+
+// What the other cameras measure. They stand elsewhere, so each has a stage of its own.
+class OtherCameras {
+ public:
+  OtherCameras(const SceneSettings& settings, const BodyModel& truth, const Motion& motion) {
+    for (const OtherViewSettings& other : settings.views) {
+      scenes_.push_back(settings);
+      scenes_.back().view = other.view;
+    }
+    for (const SceneSettings& scene : scenes_)
+      stages_.push_back(std::make_unique<Stage>(scene, truth, motion));
+  }
+
+  // Only the body and what hides it, without the room: what the score compares is the body.
+  void Record(int frame, double time_s, const SequenceWriter& writer) {
+    for (std::size_t k = 0; k < stages_.size(); ++k) {
+      const PosedBody posed = stages_[k]->PosedAt(time_s);
+      DepthImage depth = stages_[k]->Rendered(time_s, posed);
+      const MaskImage mask = stages_[k]->BodyMask(posed, depth);
+      for (std::size_t i = 0; i < mask.pixels().size(); ++i) {
+        if (mask.pixels()[i] == 0) depth.pixels()[i] = 0.0f;
+      }
+      RandomStream noise(static_cast<std::uint64_t>(scenes_[k].seed),
+                         fmt::format("sensor/views/{}/{}", k, frame));
+      writer.WriteViewDepth(static_cast<int>(k), frame,
+                            Measure(depth, scenes_[k].view.camera, scenes_[k].sensor, noise));
+    }
+  }
+
+ private:
+  std::vector<SceneSettings> scenes_;  // each seen from one of the other cameras
+  std::vector<std::unique_ptr<Stage>> stages_;
+};
+
+// What the sensor measures of the room before anybody comes.
+void RecordEmptyRoom(const SceneSettings& settings, const DepthImage& room,
+                     const SequenceWriter& writer) {
+  for (int i = 0; i < settings.room.empty_frames; ++i) {
+    RandomStream noise(static_cast<std::uint64_t>(settings.seed),
+                       fmt::format("sensor/empty_room/{}", i));
+    writer.WriteEmptyRoom(i, Measure(room, settings.view.camera, settings.sensor, noise));
+  }
+}
 
 }  // namespace
 
@@ -264,6 +320,7 @@ void RecordSequence(const SceneSettings& settings, const BodyModel& truth, const
   const PinholeCamera& camera = settings.view.camera;
   SequenceWriter writer(folder, Info(settings, truth, subject), subject, truth.rest);
   Stage stage(settings, truth, motion);
+  OtherCameras others(settings, truth, motion);
   const Sensor sensor(settings);
   ViewWatch watch(camera);
   TemplateMisfit misfit(subject, truth);
@@ -279,9 +336,12 @@ void RecordSequence(const SceneSettings& settings, const BodyModel& truth, const
       const JointTruth joints{posed.joints, VisibleJoints(posed.joints, true_depth, camera)};
       const DepthImage measured = sensor.Measured(frame, time_s, true_depth, stage);
       writer.Append(measured, posed.vertices, joints);
+      others.Record(frame, time_s, writer);
+      if (settings.room.IsThere()) writer.WriteMask(frame, stage.BodyMask(posed, true_depth));
       progress.Advance();
     }
   }
+  if (settings.room.IsThere()) RecordEmptyRoom(settings, stage.room(), writer);
   writer.Note("template_moved_by_true_bones", misfit.Summary());
   std::vector<std::string> warnings = MotionWarnings(settings, motion);
   const std::string out_of_view = watch.Warning(settings.frames);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "math/rigid.h"
 #include "synth/scene/scene.h"
 
 namespace vitruvia {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "math/rigid.h"
 #include "synth/scene/recording.h"
 
 namespace vitruvia {
@@ -63,6 +64,11 @@ Rigidd CameraFromSubject(const ViewSettings& view) {
   return {rotation, -(rotation * position)};
 }
 
+void OtherViewSettings::Describe(Fields& f) {
+  f.Text("name", name, {.meaning = "name of the view's folder", .required = true});
+  f.Section("view", view, {.meaning = "the camera and where it stands"});
+}
+
 void SceneSettings::Describe(Fields& f) {
   f.Text("title", title, {.meaning = "what the scene shows, for people"});
   f.Section("body", body, {.meaning = "the person"});
@@ -70,7 +76,10 @@ void SceneSettings::Describe(Fields& f) {
   f.Section("truth", truth, {.meaning = "the true surface, which is rendered"});
   f.Section("subject", subject, {.meaning = "the template that a tracker is given"});
   f.Section("view", view, {.meaning = "the camera and where it stands"});
+  f.List("views", views,
+         {.meaning = "other cameras that record the same, for scores; no tracker sees them"});
   f.Section("occluder", occluder, {.meaning = "what walks past between camera and subject"});
+  f.Section("room", room, {.meaning = "what stands still round the subject"});
   f.Section("sensor", sensor, {.meaning = "what the camera makes of true depth"});
   f.Integer("frames", frames, {.meaning = "length of the sequence", .min = 1, .max = 100000});
   f.Number("fps", fps,

@@ -11,6 +11,7 @@
 #include "synth/cloth/garment.h"
 #include "synth/motions/motion.h"
 #include "synth/scene/occluder.h"
+#include "synth/scene/room.h"
 #include "synth/sensor/sensor.h"
 
 namespace vitruvia {
@@ -38,6 +39,14 @@ struct ViewSettings {
 // The upright camera (no roll) that looks from position_m at look_at_m.
 Rigidd CameraFromSubject(const ViewSettings& view);
 
+// Another camera that records the same scene.
+struct OtherViewSettings {
+  std::string name;
+  ViewSettings view;
+
+  void Describe(Fields& fields);
+};
+
 struct SceneSettings {
   std::string title;
   BodySettings body;
@@ -45,7 +54,9 @@ struct SceneSettings {
   TruthSettings truth;         // the surface that is rendered
   RefinementSettings subject;  // the template that a tracker is given
   ViewSettings view;
-  OccluderSettings occluder;  // none by default
+  std::vector<OtherViewSettings> views;  // of other cameras, which no tracker sees
+  OccluderSettings occluder;             // none by default
+  RoomSettings room;                     // none by default; with one the true mask is written
   SensorSettings sensor;
   int frames = 300;
   double fps = 30.0;

@@ -66,6 +66,21 @@ TEST(BootstrapMeanInterval, IsTheSameForTheSameSeed) {
   EXPECT_NE(a.low, BootstrapMeanInterval(values, {.seed = 6}).low);
 }
 
+TEST(MedianInterval, RunsBetweenTheOrderStatisticsOfTheSignTest) {
+  // Of 10 fair coins P(heads ≤ 1) = 11/1024 = 1.1 % and P(heads ≤ 2) = 5.5 %: the second smallest
+  // and the second largest value at 95 %, the third ones at 85 %.
+  const std::vector<double> values = {9.0, 1.0, 8.0, 2.0, 7.0, 3.0, 6.0, 4.0, 5.0, 100.0};
+  EXPECT_EQ(MedianInterval(values, 0.95).low, 2.0);
+  EXPECT_EQ(MedianInterval(values, 0.95).high, 9.0);
+  EXPECT_EQ(MedianInterval(values, 0.85).low, 3.0);
+  EXPECT_EQ(MedianInterval(values, 0.85).high, 8.0);
+  const std::vector<double> five(5, 1.0), six(6, 1.0);
+  EXPECT_EQ(MedianInterval(five, 0.95).high, kInfinity);
+  EXPECT_EQ(MedianInterval(six, 0.95).high, 1.0);
+  EXPECT_EQ(FewestPairs(0.95), 6);
+  EXPECT_EQ(MedianInterval({}, 0.95).low, -kInfinity);
+}
+
 // How often the interval of `count` values drawn by `draw`, whose mean is 0, holds 0.
 template <class Draw>
 double Coverage(int count, Draw draw) {

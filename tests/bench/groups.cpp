@@ -5,14 +5,18 @@
 namespace vitruvia::bench {
 
 std::vector<Row> FitShape();
+std::vector<Row> ImportDepth();
 std::vector<Row> LearnWeights();
 std::vector<Row> Scan();
+std::vector<Row> Starts();
 
 std::span<const Group> Groups() {
   static constexpr std::array kGroups = {
       Group{"fit_shape", FitShape},
+      Group{"import_depth", ImportDepth},
       Group{"learn_weights", LearnWeights},
       Group{"scan", Scan},
+      Group{"starts", Starts},
   };
   return kGroups;
 }

@@ -4,6 +4,7 @@
 #include "core/timer.h"
 #include "geometry/surface_map.h"
 #include "learning/scan/scan_fusion.h"
+#include "math/rigid.h"
 #include "synth/scan/scan_recorder.h"
 
 namespace vitruvia::bench {

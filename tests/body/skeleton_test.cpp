@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 #include "tests/support/tiny_body.h"
 
 namespace vitruvia {

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "math/rotation.h"
 #include "support/shapes.h"
 
 namespace vitruvia {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "math/rotation.h"
 #include "support/tiny_body.h"
 
 namespace vitruvia {

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "dynamic_fixtures.h"
+#include "math/rigid.h"
 #include "methods/dynamic/energy_terms.h"
 #include "methods/dynamic/pose_solver.h"
 #include "support/arm_stage.h"

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "dynamic_fixtures.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 
 namespace vitruvia::dynamic {
 namespace {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "dynamic_fixtures.h"
+#include "math/rigid.h"
 
 namespace vitruvia::dynamic {
 namespace {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "dynamic_fixtures.h"
+#include "math/rigid.h"
 
 namespace vitruvia::dynamic {
 namespace {

@@ -90,11 +90,13 @@ TEST_F(EvalImporter, FilesAreJoinedInTheirOrder) {
   const CallResult call = CallVitruvia({"import", "eval", files_.File("b.bin"),
                                         files_.File("a.bin"), "-o", files_.File("imported")});
   ASSERT_EQ(call.code, 0) << call.error;
-  EXPECT_THAT(call.out, HasSubstr("1 frames do not have the number after their predecessor's"));
+  EXPECT_THAT(call.error,
+              HasSubstr("1 of 5 frames do not have the number after their predecessor's"));
   const SequenceReader imported(files_ / "imported");
   ASSERT_EQ(imported.info().frames, kWavingFrames - 1);
   EXPECT_EQ(imported.ReadDepth(2).pixels(), original_->ReadDepth(3).pixels());
   EXPECT_EQ(imported.info().provenance.at("files"), Json({"b.bin", "a.bin"}));
+  EXPECT_THAT(imported.info().provenance.at("warnings").dump(), HasSubstr("1 of 5 frames"));
 }
 
 TEST_F(EvalImporter, ATrackerScoresTheSameOnTheImportedSequence) {

@@ -9,6 +9,8 @@
 #include "core/files.h"
 #include "experiments/cli/commands.h"
 #include "geometry/mesh_io.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_body.h"
 

@@ -1,12 +1,15 @@
 // A sequence taken apart into mesh files and imported again: the same sequence.
 #include "importers/mesh_import.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/files.h"
 #include "experiments/command_line.h"
 #include "geometry/mesh_io.h"
+#include "math/rigid.h"
 #include "sequence/sequence.h"
 
 namespace vitruvia {
@@ -137,6 +140,93 @@ TEST_F(MeshImport, DamagedAndForeignMeshesAreNamedAndNothingIsWritten) {
   WriteWholeFile(files_ / "meshes/002.obj", "v 1 2\nf 1 2 3\n");
   refused(ExitCode::kBadData, "002.obj");
   ExpectRefusal({"import"}, ExitCode::kBadConfiguration, {"subcommand"});
+}
+
+// Frames 8, 9, 10 and 11 with extensions in any case, beside the rest mesh and a hidden file.
+TEST_F(MeshImport, FramesAreInTheOrderOfTheirNumbersAndTheRestMeshIsNone) {
+  WriteFrames(".obj", [](const Vector3f& v) { return v; });
+  const char* const kNames[] = {"f_8.obj", "f_9.OBJ", "f_10.obj", "f_11.Obj"};
+  for (int i = 0; i < kImportedFrames; ++i)
+    fs::rename(files_ / fmt::format("meshes/{:03}.obj", i),
+               files_ / (std::string("meshes/") + kNames[i]));
+  fs::rename(files_ / "rest.ply", files_ / "meshes/rest.ply");
+  WriteWholeFile(files_ / "meshes/._f_8.obj", "not a mesh");
+  config_["rest"] = "meshes/rest.ply";
+  ExpectImported(1e-5);
+  EXPECT_FALSE(SequenceReader(files_ / "imported").info().provenance.contains("warnings"));
+}
+
+TEST_F(MeshImport, OtherMeshesAmongTheFramesAreRefusedAndGapsAreTold) {
+  WriteFrames(".obj", [](const Vector3f& v) { return v; });
+  fs::copy_file(files_ / "meshes/000.obj", files_ / "meshes/template.obj");
+  EXPECT_THAT(Import().error, HasSubstr("cannot tell which files are frames: expected names that "
+                                        "differ only in their numbers, got 4 like 000.obj, 1 like "
+                                        "template.obj"));
+  fs::rename(files_ / "meshes/template.obj", files_ / "meshes/1.obj");
+  EXPECT_THAT(Import().error, HasSubstr("has the same number as"));
+  fs::rename(files_ / "meshes/1.obj", files_ / "meshes/007.obj");
+  const CallResult call = Import();
+  EXPECT_EQ(call.code, 0) << call.error;
+  EXPECT_THAT(call.error, HasSubstr("the first from 003.obj to 007.obj (3 frames are missing)"));
+  const Json provenance = SequenceReader(files_ / "imported").info().provenance;
+  EXPECT_THAT(provenance.at("warnings").dump(), HasSubstr("3 frames are missing"));
+}
+
+TEST_F(MeshImport, ARestMeshThatIsNotTheSubjectIsRefusedBeforeTheFirstFrame) {
+  WriteFrames(".obj", [](const Vector3f& v) { return v; });
+  TriangleMesh moved = original_->true_rest_mesh();
+  for (Vector3f& v : moved.vertices) v.x() += 1.0f;
+  WriteMesh(files_ / "rest.ply", moved);
+  EXPECT_THAT(Import().error, HasSubstr("rest.ply: the rest mesh is not where the subject is"));
+  for (Vector3f& v : moved.vertices) v = 1000.0f * (v - Vector3f::UnitX());
+  WriteMesh(files_ / "rest.ply", moved);
+  const CallResult call = Import();
+  EXPECT_EQ(call.code, static_cast<int>(ExitCode::kBadData));
+  EXPECT_THAT(call.error, HasSubstr("rest.ply: the rest mesh is 1000 times too large"));
+  EXPECT_FALSE(fs::exists(files_ / "imported"));
+}
+
+TEST_F(MeshImport, ABodyOutOfTheImageIsTold) {
+  WriteFrames(".obj", [](const Vector3f& v) -> Vector3f { return v + Vector3f(0.0f, 1.0f, 0.0f); });
+  const CallResult call = Import();
+  EXPECT_EQ(call.code, 0) << call.error;
+  EXPECT_THAT(call.error, HasSubstr("the body leaves the image in 4 of 4 frames"));
+  const Json provenance = SequenceReader(files_ / "imported").info().provenance;
+  EXPECT_THAT(provenance.at("warnings").dump(), HasSubstr("the body leaves the image"));
+}
+
+TEST_F(MeshImport, DepthThatDoesNotFitIsRefused) {
+  WriteFrames(".obj", [](const Vector3f& v) { return v; });
+  config_["sensor"] = {{"depth_unit_m", 1e-5}};
+  const CallResult call = Import();
+  EXPECT_EQ(call.code, static_cast<int>(ExitCode::kBadData));
+  EXPECT_THAT(call.error, HasSubstr("imported: depth of frame 0: "));
+  EXPECT_THAT(call.error, HasSubstr("do not fit 16 bits"));
+  EXPECT_FALSE(fs::exists(files_ / "imported"));
+}
+
+// Without a rest pose nothing corresponds: each frame keeps its own triangles.
+TEST_F(MeshImport, MeshesWithoutARestPoseAreSurfacesOfTheirOwn) {
+  WriteFrames(".ply", [](const Vector3f& v) { return v; });
+  TriangleMesh other{original_->ReadTrueVertices(2), original_->true_rest_mesh().triangles};
+  std::reverse(other.triangles.begin(), other.triangles.end());
+  other.triangles.pop_back();
+  WriteMesh(files_ / "meshes/002.ply", other);
+  config_.erase("rest");
+  config_.erase("subject");
+  const CallResult call = Import();
+  ASSERT_EQ(call.code, 0) << call.error;
+  VerifySequence(files_ / "imported");
+  const SequenceReader imported(files_ / "imported");
+  EXPECT_FALSE(imported.info().surface);
+  EXPECT_TRUE(imported.info().own_surfaces);
+  EXPECT_TRUE(imported.info().joints.empty());
+  EXPECT_EQ(imported.ReadTrueSurface(2).triangles, other.triangles);
+  ExpectDepth(imported.ReadDepth(1), original_->ReadDepth(1));
+  config_["rest"] = "rest.ply";
+  files_.Write("import.json", config_);
+  ExpectRefusal({"import", "meshes", files_.File("import.json"), "-o", files_.File("never")},
+                ExitCode::kBadConfiguration, {"rest", "`subject` names none"});
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ class Sufficient : public testing::Test {
                               {"scenes", {"scene.json"}},
                               {"methods", {"method.json"}},
                               {"variants", variants}});
-    return FindSufficient(folder_ / "experiment.json", settings, folder_ / "out");
+    return FindSufficient(folder_ / "experiment.json", settings, folder_ / "out", VITRUVIA_PROGRAM);
   }
 
   TemporaryFolder folder_;

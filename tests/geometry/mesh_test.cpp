@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "math/rotation.h"
 #include "support/shapes.h"
 
 namespace vitruvia {

@@ -57,6 +57,23 @@ TEST_F(Png, DepthComesBackToHalfAUnit) {
   EXPECT_EQ(RoundTrip(read, kMillimetre).pixels(), read.pixels()) << "whole units are exact";
 }
 
+TEST_F(Png, DepthThatDoesNotFitIsCountedAndTheUnitThatWouldDoIsNamed) {
+  DepthImage depth(4, 1, 2.0f);
+  depth(0, 0) = 0.0f;
+  depth(3, 0) = 65.5f;
+  EXPECT_EQ(DepthPngProblem(depth, kMillimetre), "");
+  depth(3, 0) = 65.6f;
+  EXPECT_THAT(DepthPngProblem(depth, kMillimetre),
+              testing::AllOf(HasSubstr("1 of 3 measured pixels, 65.6 to 65.6 m deep"),
+                             HasSubstr("expected a depth_unit_m of at least 0.001 m")));
+  EXPECT_THROW(WriteDepthPng(file_, depth, kMillimetre), std::invalid_argument);
+  EXPECT_FALSE(std::filesystem::exists(file_));
+  EXPECT_THAT(DepthPngProblem(DepthImage(2, 2, 0.4f), 1.0),
+              HasSubstr("4 of 4 measured pixels, 0.4 to 0.4 m deep, do not fit 16 bits: with a "
+                        "depth_unit_m of 1 m these hold 1 to 6.554e+04 m; expected a depth_unit_m "
+                        "of at most 0.4 m"));
+}
+
 TEST_F(Png, EveryValueOfSixteenBitsSurvives) {
   constexpr double kUnit = 1.0 / 4096.0;  // a power of two: metres are exact
   DepthImage depth(256, 256);
@@ -64,17 +81,13 @@ TEST_F(Png, EveryValueOfSixteenBitsSurvives) {
   EXPECT_EQ(RoundTrip(depth, kUnit).pixels(), depth.pixels());
 }
 
-TEST_F(Png, DepthOutOfRangeIsNoMeasurement) {
-  DepthImage depth(6, 1);
-  depth.pixels() = {65.535f,
-                    65.536f,
-                    1e9f,
-                    -1.0f,
-                    std::numeric_limits<float>::quiet_NaN(),
+TEST_F(Png, DepthThatIsNegativeOrNotFiniteIsNoMeasurement) {
+  DepthImage depth(4, 1);
+  depth.pixels() = {65.535f, -1.0f, std::numeric_limits<float>::quiet_NaN(),
                     std::numeric_limits<float>::infinity()};
   const DepthImage read = RoundTrip(depth, kMillimetre);
   EXPECT_FLOAT_EQ(read(0, 0), 65.535f);
-  for (int u = 1; u < 6; ++u) EXPECT_EQ(read(u, 0), 0.0f) << "column " << u;
+  for (int u = 1; u < 4; ++u) EXPECT_EQ(read(u, 0), 0.0f) << "column " << u;
 }
 
 TEST_F(Png, RefusesFilesCutShortAnywhere) {

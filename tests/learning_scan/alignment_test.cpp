@@ -6,6 +6,8 @@
 
 #include "learning_scan/analytic_views.h"
 #include "math/angles.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 
 namespace vitruvia {
 namespace {

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "geometry/zbuffer.h"
+#include "math/rigid.h"
 
 namespace vitruvia {
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "learning_scan/analytic_views.h"
+#include "math/rigid.h"
 
 namespace vitruvia {
 namespace {

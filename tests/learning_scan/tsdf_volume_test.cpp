@@ -6,6 +6,7 @@
 
 #include "learning/scan/scan_surface.h"
 #include "learning_scan/analytic_views.h"
+#include "math/rigid.h"
 
 namespace vitruvia {
 namespace {

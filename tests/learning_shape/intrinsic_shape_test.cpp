@@ -9,6 +9,8 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 #include "small_database.h"
 #include "support/ceres_adaptor.h"
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "math/rotation.h"
 #include "small_database.h"
 
 namespace vitruvia {

@@ -7,6 +7,7 @@
 
 #include "learning/skinning/fit_errors.h"
 #include "learning_skinning/planted.h"
+#include "math/rigid.h"
 
 namespace vitruvia::skinning {
 namespace {

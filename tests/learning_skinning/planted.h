@@ -6,6 +6,8 @@
 #include "core/random.h"
 #include "learning/skinning/examples.h"
 #include "learning/skinning/labels.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 
 namespace vitruvia::skinning {
 

@@ -5,6 +5,8 @@
 #include "learning/skinning/joint_step.h"
 #include "learning/skinning/transform_step.h"
 #include "learning_skinning/planted.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 
 namespace vitruvia::skinning {
 namespace {

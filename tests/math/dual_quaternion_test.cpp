@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 #include "tests/math/random_rigid.h"
 
 namespace vitruvia {

@@ -4,6 +4,7 @@
 
 #include "core/random.h"
 #include "math/rigid.h"
+#include "math/rotation.h"
 
 namespace vitruvia {
 

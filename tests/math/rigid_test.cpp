@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "math/rotation.h"
 #include "tests/math/random_rigid.h"
 
 namespace vitruvia {

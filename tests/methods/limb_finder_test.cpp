@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "body/skinning.h"
+#include "math/rotation.h"
 #include "methods/posed_tiny_body.h"
 #include "methods/realtime_scape/realtime_scape.h"
 #include "support/arm_stage.h"

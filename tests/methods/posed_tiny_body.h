@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 
 #include "core/random.h"
+#include "math/rotation.h"
 #include "methods/realtime_scape/model.h"
 #include "solver/block_normal_equations.h"
 #include "support/tiny_body.h"

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "math/rotation.h"
 #include "methods/posed_tiny_body.h"
 #include "methods/realtime_scape/correspondences.h"
 #include "methods/realtime_scape/prediction.h"

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "math/rigid.h"
 #include "methods/posed_tiny_body.h"
 #include "methods/realtime_scape/pose_step.h"
 #include "methods/realtime_scape/terms/axis_term.h"

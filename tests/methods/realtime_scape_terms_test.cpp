@@ -7,6 +7,8 @@
 #include "body/bone_limits.h"
 #include "body/pose_statistics.h"
 #include "math/angles.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 #include "methods/posed_tiny_body.h"
 #include "methods/realtime_scape/terms/axis_term.h"
 #include "methods/realtime_scape/terms/energy_terms.h"

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "math/rigid.h"
 #include "methods/registry.h"
 #include "support/arm_stage.h"
 

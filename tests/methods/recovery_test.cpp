@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "body/skinning.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 #include "methods/realtime_scape/realtime_scape.h"
 #include "support/arm_stage.h"
 #include "tracking/realtime_scape_steps.h"

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "math/rotation.h"
 
 namespace vitruvia {
 namespace {

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 #include "math/statistics.h"
 #include "synth/bodies/mannequin.h"
 #include "synth/population/make_database.h"

@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include "analysis/gate_reports.h"
+#include "config/stored_data.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "reports/figures/history_figure.h"
@@ -82,10 +84,14 @@ TEST(MakeIndexPage, ListsEveryRunAndEscapesWhatOthersWrote) {
 std::vector<HistoryEntry> ThreeNights() {
   std::vector<HistoryEntry> history;
   for (const char* commit : {"aaa", "bbb", "ccc"}) {
-    GatedRun run{"nightly/clean", "short", "walk", "realtime_scape", 1, 3, {}, {}, {}, {}, 8.0};
+    GatedRun run{"nightly/clean", "short", "walk", "realtime_scape", 1, 3, {}, {}, {}};
     run.accuracy = {{"l2_mean_m", 0.001 * static_cast<double>(history.size() + 1)}};
-    run.speed = {{kWholeFrame, 0.5}};
-    history.push_back({"2026-01-0" + std::to_string(history.size() + 1), commit, 0, {run}});
+    run.times_ms = {{kWholeFrame, {0.4, 0.5, 0.7}}};
+    history.push_back({"2026-01-0" + std::to_string(history.size() + 1),
+                       commit,
+                       history.size() < 2 ? "one" : "other",
+                       0,
+                       {run}});
   }
   history[1].runs.clear();  // nothing was measured that night
   return history;
@@ -101,9 +107,23 @@ TEST(MakeHistoryFigures, DrawsALineForEveryRunWithGaps) {
   EXPECT_EQ(line.y[0], 1.0);  // mm
   EXPECT_TRUE(std::isnan(line.y[1]));
   EXPECT_EQ(line.y[2], 3.0);
-  EXPECT_EQ(figures[0].panels[1].series.at(0).y[2], 0.5);
+  // A line for each machine, with the medians over the repeats.
+  ASSERT_EQ(figures[0].panels[1].series.size(), 2u);
+  EXPECT_EQ(figures[0].panels[1].series[0].name, "short.walk.realtime_scape.s1 on one");
+  EXPECT_EQ(figures[0].panels[1].series[0].y[0], 0.5);
+  EXPECT_TRUE(std::isnan(figures[0].panels[1].series[0].y[2]));
+  EXPECT_EQ(figures[0].panels[1].series[1].y[2], 0.5);
   EXPECT_EQ(figures[0].panels[0].x_label, "measurement (number; 1: 2026-01-01, 3: 2026-01-03)");
   EXPECT_TRUE(MakeHistoryFigures({}).empty());
+}
+
+RegressionFile OkGate() {
+  RegressionFile file;
+  file.name = "Nightly";
+  file.verdict = "ok: 3 numbers";
+  file.date = "d";
+  file.commit = "ccc";
+  return file;
 }
 
 TEST(WriteIndex, FindsExperimentsAndGatesAndSurvivesDamage) {
@@ -113,13 +133,11 @@ TEST(WriteIndex, FindsExperimentsAndGatesAndSurvivesDamage) {
   WriteWholeFile(root / "damaged/experiment.json", "{");
   fs::create_directories(root / "nightly/repeat-1/clean");
   WriteWholeFile(root / "nightly/repeat-1/clean/experiment.json", "not looked at");
-  WriteWholeFile(
-      root / "nightly/regression.json",
-      R"({"name": "Nightly", "verdict": "ok: 3 numbers", "date": "d", "commit": "ccc"})");
+  WriteStored(root / "nightly/regression.json", OkGate());
   WriteHistory(root / "nightly/history.json", ThreeNights());
   const std::string page = ReadWholeFile(WriteIndex(root.path()));
   EXPECT_THAT(page, HasSubstr("1 experiments; 3 of 5 runs finished"));
-  EXPECT_THAT(page, HasSubstr("damaged/experiment.json: not JSON"));
+  EXPECT_THAT(page, HasSubstr("damaged/experiment.json: not valid JSON"));
   EXPECT_THAT(page, Not(HasSubstr("repeat-1")));
   EXPECT_THAT(page,
               HasSubstr("<b class=\"met\">ok: 3 numbers</b> on d at commit <code>ccc</code>"));

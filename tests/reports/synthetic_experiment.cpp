@@ -6,6 +6,8 @@
 
 #include "body/body_model.h"
 #include "geometry/zbuffer.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 #include "math/statistics.h"
 #include "metrics/joint_error.h"
 #include "metrics/vertex_error.h"

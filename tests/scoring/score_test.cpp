@@ -118,5 +118,62 @@ TEST_F(Score, StepsAndEnergiesThatAFrameLacksAreAbsentThere) {
   EXPECT_EQ(record.summary.at("energy_mean"), 7.0);
 }
 
+TEST_F(Score, ObservationIsScoredOnRequestAndWhereThereIsNoTruth) {
+  const std::vector<TrackResult> results = {Result(0), Result(1), Result(2)};
+  EXPECT_FALSE(Scored(results).summary.contains("fit_m"));
+  const RunRecord record = Scored(results, {.against_observation = AgainstObservation::kAlways});
+  EXPECT_TRUE(std::isnan(record.frames.at("fit_m")[kFrameOutOfView]));
+  EXPECT_TRUE(std::isfinite(record.frames.at("fit_m")[0]));
+  EXPECT_EQ(record.frames.at("fit_m")[0], record.frames.at("fit_m")[2]);
+  EXPECT_FALSE(record.summary.contains("limb_length_change"));  // all joints are in one place
+  EXPECT_FALSE(Scored(results, {.against_observation = AgainstObservation::kNever})
+                   .summary.contains("fit_m"));
+}
+
+// The true surface is the body with triangles of its own, a centimetre beside the estimate.
+TEST(OwnSurfaceScore, IsTheDistanceInBothDirections) {
+  const TemporaryFolder folder;
+  const BodyModel body = TinyBody(2);
+  SequenceInfo info;
+  info.camera = {64, 48, 40.0, 40.0, 31.5, 23.5};
+  info.frames = 1;
+  info.surface = info.subject = false;
+  info.own_surfaces = true;
+  TriangleMesh truth = body.rest;
+  for (Vector3f& v : truth.vertices) v += Vector3f(0.0f, -1.0f, 3.0f);
+  {
+    SequenceWriter writer(folder / "sequence", info, std::nullopt);
+    writer.Append(DepthImage(64, 48, 3.0f), truth, JointTruth());
+    writer.Finish();
+    EstimateWriter estimate(folder / "estimate", body.rest);
+    TrackResult result;
+    result.outcome = Outcome::kConverged;
+    result.vertices = truth.vertices;
+    for (Vector3f& v : result.vertices) v.z() += kError_m;
+    result.joints.assign(kBoneCount, Vector3<double>(0.0, 0.0, 3.0));
+    estimate.Append(result, 1.0);
+    estimate.Finish();
+  }
+  RunRecord record;
+  record.summary = nlohmann::json::object();
+  ScoreRun(SequenceReader(folder / "sequence"), EstimateReader(folder / "estimate"),
+           ScoreSettings(), record);
+  const auto value = [&](const char* key) { return record.summary.at(key).get<double>(); };
+  // Nowhere more than the shift, and less where the surface is seen edgewise.
+  for (const char* key : {"two_way_mean_m", "two_way_visible_mean_m", "to_truth_mean_m",
+                          "from_truth_mean_m", "two_way_p95_m", "two_way_visible_p95_m"}) {
+    EXPECT_LT(value(key), kError_m + 1e-5) << key;
+    EXPECT_GT(value(key), 0.3 * kError_m) << key;
+  }
+  EXPECT_NEAR(value("two_way_p95_m"), kError_m, 0.1 * kError_m);
+  EXPECT_DOUBLE_EQ(value("two_way_mean_m"),
+                   0.5 * (value("to_truth_mean_m") + value("from_truth_mean_m")));
+  EXPECT_EQ(record.summary.at("frames_lost"), 0);
+  EXPECT_FALSE(record.summary.contains("l2_mean_m"));
+  EXPECT_FALSE(record.summary.contains("fit_m"));
+  EXPECT_THAT(record.summary.at("not_scored").get<std::string>(),
+              testing::Not(testing::HasSubstr("surface")));
+}
+
 }  // namespace
 }  // namespace vitruvia

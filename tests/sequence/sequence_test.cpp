@@ -11,8 +11,11 @@
 #include "config/json_settings.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/worker_team.h"
 #include "geometry/depth_png.h"
 #include "geometry/mask_png.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_body.h"
 
@@ -137,6 +140,103 @@ TEST_F(Sequence, HidesWhatTheMaskCallsBackground) {
   EXPECT_THAT(Refusal(folder_), AllOf(HasSubstr("mask/000002.png"), HasSubstr("8 bits")));
 }
 
+// A surface whose triangles differ from frame to frame.
+TriangleMesh OwnSurface(int frame) {
+  TriangleMesh mesh = TinyBody().rest;
+  for (Vector3f& p : mesh.vertices) p += Vector3f(0.0f, 0.0f, 2.5f);
+  mesh.triangles.resize(mesh.triangles.size() - static_cast<std::size_t>(frame));
+  return mesh;
+}
+
+SequenceInfo OwnSurfaceInfo() {
+  SequenceInfo info = SmallInfo();
+  info.joints.clear();
+  info.surface = false;
+  info.subject = false;
+  info.own_surfaces = true;
+  info.views = {
+      {"side", {8, 6, 10.0, 10.0, 3.5, 2.5}, {ExpSo3<double>({0.0, 1.5, 0.0}), {1, 0, 2}}}};
+  info.start_pose = {{"left_knee", {0.1, 0.5, 2.4}}, {"head", {0.0, -0.5, 2.5}}};
+  info.start_pose_accuracy_m = 0.03;
+  return info;
+}
+
+void WriteOwnSurfaces(const fs::path& folder) {
+  SequenceWriter writer(folder, OwnSurfaceInfo(), std::nullopt);
+  for (int i = 0; i < kFrames; ++i) {
+    writer.Append(SmallDepth(i), OwnSurface(i), JointTruth());
+    writer.WriteViewDepth(0, i, DepthImage(8, 6, 1.5f + static_cast<float>(i)));
+  }
+  writer.Finish();
+}
+
+TEST_F(Sequence, IsOfVersion1UnlessItSaysMore) {
+  WriteSmall(folder_);
+  EXPECT_EQ(ReadJsonFile(folder_ / "sequence.json").at("version"), 1);
+  WriteOwnSurfaces(root_ / "own");
+  EXPECT_EQ(ReadJsonFile(root_ / "own/sequence.json").at("version"), 2);
+}
+
+TEST_F(Sequence, Version2ReadsBackWhatWasWritten) {
+  WriteOwnSurfaces(folder_);
+  VerifySequence(folder_);
+  const SequenceReader reader(folder_);
+  for (int i = 0; i < kFrames; ++i) {
+    EXPECT_EQ(reader.ReadTrueSurface(i).vertices, OwnSurface(i).vertices);
+    EXPECT_EQ(reader.ReadTrueSurface(i).triangles, OwnSurface(i).triangles);
+    EXPECT_NEAR(reader.ReadViewDepth(0, i)(3, 2), 1.5f + static_cast<float>(i), 1e-6);
+  }
+  const OtherView &view = reader.info().views.at(0), expected = OwnSurfaceInfo().views[0];
+  EXPECT_EQ(view.name, "side");
+  EXPECT_TRUE(view.view_from_camera.rotation.isApprox(expected.view_from_camera.rotation));
+  EXPECT_EQ(view.view_from_camera.translation, expected.view_from_camera.translation);
+  ASSERT_EQ(reader.info().start_pose.size(), 2u);
+  EXPECT_EQ(reader.info().start_pose[0].joint, "left_knee");
+  EXPECT_EQ(reader.info().start_pose[1].position, OwnSurfaceInfo().start_pose[1].position);
+  EXPECT_EQ(reader.info().start_pose_accuracy_m, 0.03);
+}
+
+TEST_F(Sequence, DamagedVersion2IsNamed) {
+  WriteOwnSurfaces(folder_);
+  const std::string header = ReadWholeFile(folder_ / "sequence.json");
+  Edit("sequence.json", "left_knee", "third_knee");
+  EXPECT_THAT(Refusal(folder_), HasSubstr("no joint \"third_knee\""));
+  WriteWholeFile(folder_ / "sequence.json", header);
+  Edit("sequence.json", "\"version\": 2", "\"version\": 3");
+  EXPECT_THAT(Refusal(folder_), HasSubstr("newer version"));
+  WriteWholeFile(folder_ / "sequence.json", header);
+  CutShort("truth/surfaces/000001.ply", 5);
+  EXPECT_THAT(Refusal(folder_), HasSubstr("surfaces/000001.ply"));
+  fs::remove(folder_ / "truth/surfaces/000001.ply");
+  EXPECT_THAT(Refusal(folder_), HasSubstr("frame 1 is missing"));
+  fs::remove_all(folder_ / "views");
+  EXPECT_THAT(Refusal(folder_), HasSubstr("folder is missing"));
+}
+
+TEST_F(Sequence, MasksAndPreviewAreWrittenWithTheFrames) {
+  SequenceInfo info = SmallInfo();
+  info.joints.clear();
+  info.surface = info.subject = false;
+  {
+    SequenceWriter writer(folder_, info, std::nullopt);
+    WorkerTeam team(2);
+    writer.Append({SmallDepth(0), SmallDepth(1), SmallDepth(2)}, team);
+    MaskImage mask(16, 12);
+    mask(3, 4) = 255;
+    for (int i = 0; i < kFrames; ++i) writer.WriteMask(i, mask);
+    writer.WriteEmptyRoom(0, SmallDepth(0));
+    writer.WritePreview("png");
+    writer.Finish();
+  }
+  const SequenceReader reader(folder_);
+  ASSERT_TRUE(reader.has_masks());
+  EXPECT_EQ(reader.ReadMask(1)(3, 4), 255);
+  EXPECT_EQ(reader.ReadDepth(2)(4, 4), 0.0f);
+  EXPECT_NEAR(reader.ReadDepthWithRoom(2)(4, 4), SmallDepth(2)(4, 4), 1e-6);
+  EXPECT_NEAR(reader.ReadDepth(2)(3, 4), SmallDepth(2)(3, 4), 1e-6);
+  EXPECT_TRUE(fs::exists(folder_ / "empty_room/000000.png"));
+}
+
 TEST_F(Sequence, HashKnowsEveryByteButTheProvenance) {
   WriteSmall(folder_);
   const std::string original = SequenceReader(folder_).hash();
@@ -215,7 +315,8 @@ TEST_F(Sequence, WriterRefusesWhatDoesNotFit) {
   SequenceWriter writer(folder_, SmallInfo(), body, body.rest);
   const std::vector<Vector3f> vertices = SmallVertices(body, 0);
   EXPECT_THROW(writer.Append(DepthImage(16, 13), vertices, SmallJoints(0)), std::invalid_argument);
-  EXPECT_THROW(writer.Append(SmallDepth(0), {}, SmallJoints(0)), std::invalid_argument);
+  EXPECT_THROW(writer.Append(SmallDepth(0), std::vector<Vector3f>{}, SmallJoints(0)),
+               std::invalid_argument);
   EXPECT_THROW(writer.Append(SmallDepth(0), vertices, JointTruth{}), std::invalid_argument);
   std::vector<Vector3f> broken = vertices;
   broken[7].y() = std::numeric_limits<float>::quiet_NaN();
@@ -252,8 +353,8 @@ TEST_F(Sequence, RefusesWrongHeaders) {
   EXPECT_THAT(refusal_with("\"fx\": 20.5,", ""), HasSubstr("camera.fx: missing"));
   EXPECT_THAT(refusal_with("\"fx\": 20.5", "\"fx\": \"20.5\""), HasSubstr("expected a number"));
   EXPECT_THAT(refusal_with("0.0005", "-1"), HasSubstr("depth_unit_m"));
-  EXPECT_THAT(refusal_with("\"version\": 1", "\"version\": 2"),
-              HasSubstr("version 2: a newer version of vitruvia wrote the file; this one reads 1"));
+  EXPECT_THAT(refusal_with("\"version\": 1", "\"version\": 3"),
+              HasSubstr("version 3: a newer version of vitruvia wrote the file; this one reads 2"));
   EXPECT_THAT(refusal_with("vitruvia-sequence", "video"),
               HasSubstr("format: expected \"vitruvia-sequence\", got \"video\""));
   EXPECT_THAT(refusal_with("\"left_hip\"", "\"neck\""), HasSubstr("\"neck\" stands twice"));

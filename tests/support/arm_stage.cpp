@@ -1,5 +1,7 @@
 #include "support/arm_stage.h"
 
+#include "math/rigid.h"
+#include "math/rotation.h"
 #include "synth/bodies/body_source.h"
 
 namespace vitruvia {

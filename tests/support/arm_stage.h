@@ -3,6 +3,7 @@
 
 #include "body/body_model.h"
 #include "geometry/zbuffer.h"
+#include "math/rigid.h"
 #include "tracking/tracker.h"
 
 namespace vitruvia {

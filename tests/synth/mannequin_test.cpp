@@ -9,6 +9,8 @@
 #include "body_measures.h"
 #include "config/json_settings.h"
 #include "core/error.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 #include "search/kd_tree.h"
 #include "synth/bodies/mannequin_tables.h"
 

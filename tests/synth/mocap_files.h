@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "body/skeleton.h"
+#include "math/rotation.h"
 #include "synth/motions/bvh.h"
 #include "synth/motions/mocap_retarget.h"
 

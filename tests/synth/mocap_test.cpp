@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "math/rigid.h"
+#include "math/rotation.h"
 #include "mocap_support.h"
 
 namespace vitruvia {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "math/rigid.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_body.h"
 #include "synth/motions/motion.h"

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "math/rotation.h"
 #include "motion_files.h"
 
 namespace vitruvia {
@@ -124,8 +125,8 @@ TEST(ShippedMotions, LoadWithinTheLimitsAndMoveAtTheirPace) {
       {"arm_wave", 3.0},      {"boxing", 6.0},       {"calisthenics", 2.0},
       {"crouch", 1.5},        {"handstand", 4.0},    {"handstand_scissors", 4.0},
       {"hands_on_body", 3.0}, {"jumping_jack", 4.5}, {"kick", 3.0},
-      {"sit_down", 2.0},      {"t_pose", 0.3},       {"turn_360", 2.0},
-      {"walk", 2.5}};
+      {"sit_down", 2.0},      {"sit_on_chair", 2.0}, {"t_pose", 0.3},
+      {"turn_360", 2.0},      {"walk", 2.5}};
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(kMotions)) {
     names.push_back(entry.path().stem().string());

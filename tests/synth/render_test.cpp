@@ -7,6 +7,8 @@
 
 #include "body/skinning.h"
 #include "geometry/zbuffer.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 #include "support/tiny_body.h"
 #include "synth/render/depth_renderer.h"
 

@@ -9,12 +9,18 @@
 #include "config/json_settings.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "geometry/depth_png.h"
+#include "geometry/point_cloud.h"
+#include "geometry/surface_map.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 #include "sequence/joint_visibility.h"
 #include "sequence/sequence.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_body.h"
 #include "synth/render/depth_renderer.h"
 #include "synth/scene/recording.h"
+#include "verification/verification.h"
 
 namespace vitruvia {
 namespace {
@@ -343,6 +349,26 @@ TEST(ShippedScenes, KeepTheWholeBodyInView) {
   }
 }
 
+// The first frames of every scene that needs no data from elsewhere.
+TEST(ShippedScenes, PassTheVerificationWithoutAWarning) {
+  const TemporaryFolder temporary;
+  int verified = 0;
+  const fs::path folder = fs::path(VITRUVIA_SOURCE_DIR) / "configs/scenes";
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string text = entry.is_regular_file() ? ReadWholeFile(entry.path()) : "$";
+    if (text.find("makehuman") != std::string::npos || text.find('$') != std::string::npos)
+      continue;
+    SceneSettings scene = ReadSettingsFile<SceneSettings>(entry.path());
+    scene.frames = 3;
+    const fs::path made = temporary / entry.path().stem().string();
+    SynthesizeSequence(scene, made);
+    for (const Finding& finding : FindInconsistencies(SequenceReader(made), FrameSelection::kAll))
+      ADD_FAILURE() << entry.path() << ": " << finding.text;
+    ++verified;
+  }
+  EXPECT_GE(verified, 10);
+}
+
 TEST(ShippedScenes, AreMadeEndToEnd) {
   const TemporaryFolder temporary;
   SceneSettings scene =
@@ -367,6 +393,96 @@ TEST(ShippedScenes, AreMadeEndToEnd) {
   EXPECT_NEAR(bottom - top, height_px, 0.05 * height_px);
   EXPECT_NEAR(right - left, height_px, 0.1 * height_px);
   EXPECT_NEAR(0.5 * (left + right), 159.5, 1.0);
+}
+
+SceneSettings RoomScene() {
+  SceneSettings scene = SmallScene();
+  scene.frames = 2;
+  scene.room.floor = true;
+  scene.room.wall_behind_m = 1.5;
+  scene.room.wall_height_m = 5.0;  // up to the upper edge of the image
+  scene.room.furniture = {{{-1.0, -1.0}, {0.4, 0.5, 0.4}, 0.0, 0.0}};
+  scene.room.empty_frames = 1;
+  return scene;
+}
+
+// The level camera at 1 m sees the floor at height·f / (v − cy), the wall at its distance.
+TEST(Room, FloorAndWallAreWhereTheyAreSaidToBe) {
+  const TemporaryFolder folder;
+  const SceneSettings scene = RoomScene();
+  Record(scene, folder / "room");
+  const PinholeCamera& camera = scene.view.camera;
+  const DepthImage empty =
+      ReadDepthPng(folder / "room/empty_room/000000.png", 0.001, camera.width, camera.height);
+  const double wall_m = 2.8 + 1.5;
+  for (int v = 0; v < camera.height; v += 7) {
+    const double below = (v - camera.cy) / camera.fy;
+    const double expected = below > 0.0 ? std::min(wall_m, 1.0 / below) : wall_m;
+    EXPECT_NEAR(empty(200, v), expected, 0.002) << v;
+  }
+}
+
+TEST(Room, TrueMaskIsWhereTheSceneWithoutRoomHasItsBody) {
+  const TemporaryFolder folder;
+  SceneSettings scene = RoomScene();
+  Record(scene, folder / "room");
+  scene.room = RoomSettings();
+  Record(scene, folder / "bare");
+  const SequenceReader room(folder / "room"), bare(folder / "bare");
+  EXPECT_FALSE(bare.has_masks());
+  EXPECT_FALSE(fs::exists(folder / "bare/empty_room"));
+  for (int i = 0; i < 2; ++i) {
+    const DepthImage body = bare.ReadDepth(i), masked = room.ReadDepth(i);
+    const DepthImage whole = room.ReadDepthWithRoom(i);
+    int hidden = 0;  // soles that touch the floor
+    for (std::size_t k = 0; k < body.pixels().size(); ++k) {
+      ASSERT_GT(whole.pixels()[k], 0.0f);
+      if (masked.pixels()[k] != body.pixels()[k]) ++hidden;
+    }
+    EXPECT_LT(hidden, 20) << "frame " << i;
+    EXPECT_EQ(room.true_joints(i).visible, bare.true_joints(i).visible);
+  }
+}
+
+TEST(Room, FurnitureInFrontHidesTheBody) {
+  const TemporaryFolder folder;
+  SceneSettings scene = RoomScene();
+  scene.room.furniture = {{{0.0, 1.0}, {4.0, 1.0, 0.1}, 0.0, 0.0}};  // a wall up to the hips
+  Record(scene, folder / "room");
+  const SequenceReader room(folder / "room");
+  const MaskImage mask = room.ReadMask(0);
+  for (int v = 120; v < mask.height(); ++v) {
+    for (int u = 0; u < mask.width(); ++u) ASSERT_EQ(mask(u, v), 0) << u << " " << v;
+  }
+  EXPECT_FALSE(room.true_joints(0).visible[static_cast<std::size_t>(FindJoint("left_ankle"))]);
+}
+
+// What another camera measures lies, taken to the first camera's frame, on the true surface.
+TEST(OtherViews, PointsLieOnTheTrueSurface) {
+  const TemporaryFolder folder;
+  SceneSettings scene = SmallScene();
+  scene.frames = 2;
+  ViewSettings side;
+  side.position_m = {2.5, 1.3, -0.5};
+  side.look_at_m = {0.0, 1.0, 0.0};
+  scene.views = {{"side", side}};
+  Record(scene, folder / "seen_twice");
+  const SequenceReader sequence(folder / "seen_twice");
+  ASSERT_EQ(sequence.info().views.size(), 1u);
+  const OtherView& view = sequence.info().views[0];
+  const Rigidf camera_from_view = Inverse(view.view_from_camera).Cast<float>();
+  for (int i = 0; i < 2; ++i) {
+    PointCloud cloud;
+    CloudFromDepth(sequence.ReadViewDepth(0, i), view.camera, 5, 100.0f, cloud);
+    ASSERT_GT(cloud.points.size(), 50u);
+    for (Vector3f& point : cloud.points) point = camera_from_view * point;
+    const TriangleMesh truth{sequence.ReadTrueVertices(i), sequence.true_rest_mesh().triangles};
+    const std::vector<SurfacePoint> nearest = ClosestSurfacePoints(cloud.points, truth);
+    for (std::size_t k = 0; k < nearest.size(); ++k) {
+      const Vector3f on = Evaluate(nearest[k], truth.vertices.data(), truth.triangles);
+      ASSERT_LT((cloud.points[k] - on).norm(), 0.002f);
+    }
+  }
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <Eigen/Eigenvalues>
 
 #include "math/angles.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 
 namespace vitruvia {
 namespace {

@@ -8,6 +8,7 @@
 #include "core/worker_team.h"
 #include "geometry/camera.h"
 #include "learning/scan/point_map.h"
+#include "math/rigid.h"
 
 namespace vitruvia {
 

@@ -7,6 +7,8 @@
 #include "core/error.h"
 #include "core/timer.h"
 #include "math/angles.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
 
 namespace vitruvia {
 namespace {

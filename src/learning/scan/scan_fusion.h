@@ -17,6 +17,7 @@
 #include "learning/scan/alignment.h"
 #include "learning/scan/scan_surface.h"
 #include "learning/scan/tsdf_volume.h"
+#include "math/rigid.h"
 
 namespace vitruvia {
 

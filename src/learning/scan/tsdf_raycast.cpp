@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "learning/scan/tsdf_volume.h"
+#include "math/rigid.h"
 
 namespace vitruvia {
 namespace {

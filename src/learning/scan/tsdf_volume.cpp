@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "math/rigid.h"
 
 namespace vitruvia {
 namespace {

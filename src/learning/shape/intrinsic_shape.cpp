@@ -359,18 +359,6 @@ ScannedSurface SurfaceOf(const TriangleMesh& scan) {
   return surface;
 }
 
-ScannedSurface EvenlyChosen(const ScannedSurface& scan, int count) {
-  const auto wanted = static_cast<std::size_t>(count);
-  const std::size_t all = scan.points.size();
-  if (all <= wanted) return scan;
-  ScannedSurface chosen;
-  for (std::size_t i = 0; i < wanted; ++i) {
-    chosen.points.push_back(scan.points[i * all / wanted]);
-    chosen.normals.push_back(scan.normals[i * all / wanted]);
-  }
-  return chosen;
-}
-
 IntrinsicShape FitIntrinsicShape(const ShapeSpace& space, const ShapeSpace& tracking,
                                  const ScannedSurface& scan, const BodyAttributes& attributes,
                                  const IntrinsicShapeSettings& settings) {

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "config/settings.h"
+#include "geometry/point_sets.h"
 #include "learning/shape/attribute_subspace.h"
 #include "learning/shape/posed_shape.h"
 
@@ -43,13 +44,8 @@ struct IntrinsicShapeSettings {
 
 // A scan as the fit takes it: points with outward normals, in a frame whose y is up, the person
 // facing +z.
-struct ScannedSurface {
-  std::vector<Vector3f> points, normals;
-};
+using ScannedSurface = OrientedPoints;
 ScannedSurface SurfaceOf(const TriangleMesh& scan);
-
-// `count` points of the scan, evenly spaced by index; all of them if it has no more.
-ScannedSurface EvenlyChosen(const ScannedSurface& scan, int count);
 
 struct IntrinsicShape {
   Eigen::VectorXd theta;

@@ -1,6 +1,7 @@
 #include "learning/shape/posed_shape.h"
 
 #include "core/error.h"
+#include "math/rotation.h"
 
 namespace vitruvia {
 

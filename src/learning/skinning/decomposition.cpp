@@ -10,6 +10,7 @@
 #include "learning/skinning/packed_examples.h"
 #include "learning/skinning/transform_step.h"
 #include "learning/skinning/weight_step.h"
+#include "math/rigid.h"
 
 namespace vitruvia::skinning {
 namespace {

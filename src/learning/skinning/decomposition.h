@@ -8,6 +8,7 @@
 #include "learning/skinning/examples.h"
 #include "learning/skinning/labels.h"
 #include "learning/skinning/settings.h"
+#include "math/rigid.h"
 
 namespace vitruvia::skinning {
 

@@ -1,6 +1,7 @@
 #include "learning/skinning/fit_errors.h"
 
 #include "core/error.h"
+#include "math/rigid.h"
 
 namespace vitruvia::skinning {
 

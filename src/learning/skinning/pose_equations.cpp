@@ -1,6 +1,7 @@
 #include "learning/skinning/pose_equations.h"
 
-#include "math/rigid.h"
+#include "math/rotation.h"
+#include "math/vector.h"
 
 namespace vitruvia::skinning {
 namespace {

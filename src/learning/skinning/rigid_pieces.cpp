@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/worker_team.h"
+#include "math/rigid.h"
 #include "math/rigid_fit.h"
 
 namespace vitruvia::skinning {

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "math/rigid.h"
+#include "math/rotation.h"
+#include "math/vector.h"
 
 namespace vitruvia::skinning {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "math/angles.h"
+#include "math/rigid.h"
 #include "methods/dynamic/energy_terms.h"
 #include "methods/dynamic/level.h"
 #include "methods/dynamic/placement.h"
@@ -55,6 +56,9 @@ struct Dynamic::Session {
                coarse_vertices.empty() ? mesh.weights : Subset(mesh, coarse_vertices).weights),
         team(settings.threads) {
     if (!coarse_vertices.empty()) coarse.emplace(Subset(mesh, coarse_vertices), view);
+    if (settings.start == Start::kSearch) {
+      start_search.emplace(subject, view, settings.max_depth_m, settings.start_search);
+    }
     theta = Eigen::VectorXd::Zero(tree.joint_count());
     all_joints.assign(tree.joint_count(), 1);
     root_joints.assign(tree.joint_count(), 0);
@@ -86,11 +90,13 @@ struct Dynamic::Session {
   RestNormals normals;
   PoseSolver solver;
   WorkerTeam team;
+  std::optional<StartSearch> start_search;
   std::vector<char> all_joints, root_joints;  // per joint: may it move?
 
   // Carried from frame to frame.
-  bool placed = false;       // a frame with measurements was seen
-  Rigidd camera_from_start;  // T_world
+  bool placed = false;        // the subject was put onto a frame
+  std::string start_message;  // of the last search for the first pose
+  Rigidd camera_from_start;   // T_world
   Eigen::VectorXd theta;
   Eigen::VectorXd theta_before;  // at the end of the frame before
   TreePose pose;                 // of theta
@@ -127,14 +133,20 @@ TrackResult Dynamic::TrackFrame(const DepthFrame& frame) {
   Require(session_ != nullptr, "TrackFrame called before Start");
   ReadClouds(frame);
   FrameFit fit;
+  const bool is_first = !session_->placed;
   if (!session_->fine.cloud.points.empty()) {
-    const bool is_first = !session_->placed;
-    if (is_first) Place();
-    fit = FitPose(is_first);
-    FitShape(is_first, fit);
-    session_->fine.PoseVertices(session_->pose, session_->team, session_->clock);
+    if (is_first) FindFirstPose(frame);
+    if (session_->placed) {
+      fit = FitPose(is_first);
+      FitShape(is_first, fit);
+      session_->fine.PoseVertices(session_->pose, session_->team, session_->clock);
+    }
   }
-  return Result(fit);
+  TrackResult result = Result(fit);
+  if (is_first && session_->placed && session_->start_search) {
+    result.message = WithStart(session_->start_message, result.message);
+  }
+  return result;
 }
 
 void Dynamic::ReadClouds(const DepthFrame& frame) {
@@ -148,6 +160,20 @@ void Dynamic::ReadClouds(const DepthFrame& frame) {
                    s.coarse->cloud);
   }
   s.clock.Lap(TimedStep::kCloud);
+}
+
+// Leaves the session without a place if the subject was searched for and not found.
+void Dynamic::FindFirstPose(const DepthFrame& frame) {
+  Session& s = *session_;
+  if (!s.start_search) return Place();
+  const FoundStart found = s.start_search->Find(frame.depth);
+  s.start_message = found.message;
+  s.placed = found.found;
+  if (!found.found) return;
+  TreeStart start = StartFrom(s.tree, found.camera_from_rest);
+  s.camera_from_start = start.camera_from_start;
+  s.theta = std::move(start.theta);
+  s.clock.Lap(TimedStep::kSolve);
 }
 
 // Moves the root's joints alone until the rest pose stands where the first frame's points are.
@@ -273,6 +299,9 @@ void Dynamic::ReportOutcome(const FrameFit& fit, TrackResult& result) const {
   if (session_->fine.cloud.points.empty()) {
     result.outcome = Outcome::kNoData;
     result.message = "the frame holds no measurement; pose and shape are carried over";
+  } else if (!session_->placed) {
+    result.outcome = Outcome::kLost;
+    result.message = session_->start_message;
   } else if (!fit.solved) {
     result.outcome = Outcome::kLost;
     result.message = "the normal equations could not be solved; the pose is carried over";

@@ -29,6 +29,7 @@ class Dynamic final : public Tracker {
   struct FrameFit;
 
   void ReadClouds(const DepthFrame& frame);
+  void FindFirstPose(const DepthFrame& frame);
   void Place();
   FrameFit FitPose(bool is_first);
   void IteratePose(int limit, FrameFit& fit);

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "math/angles.h"
+#include "math/rigid.h"
 
 namespace vitruvia::dynamic {
 namespace {

@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <limits>
 
+#include <Eigen/Cholesky>
+
+#include "math/rigid.h"
+#include "math/rotation.h"
+
 namespace vitruvia::dynamic {
 namespace {
 
@@ -33,6 +38,34 @@ Rigidd UprightPlacement(const std::vector<Vector3f>& rest_vertices,
   placement.translation = {cloud_mean.x() - front_mean.x(), double{top} + double{crown},
                            cloud_mean.z() + front_mean.z()};
   return placement;
+}
+
+TreeStart StartFrom(const KinematicTree& tree, const BoneTransforms& camera_from_rest) {
+  constexpr int kIterations = 50;
+  constexpr double kDamping = 1e-3;
+  const int count = tree.joint_count();
+  TreeStart start{camera_from_rest.front(), Eigen::VectorXd::Zero(count)};
+  TreePose pose;
+  for (int i = 0; i < kIterations; ++i) {
+    tree.Pose(start.camera_from_start, start.theta, pose);
+    Eigen::MatrixXd normal = kDamping * Eigen::MatrixXd::Identity(count, count);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
+    for (int bone = 1; bone < kBoneCount; ++bone) {
+      const Matrix3<double> turn = camera_from_rest[bone].rotation *
+                                   pose.camera_from_rest[bone].ToRigid().rotation.transpose();
+      const Vector3d wanted = LogSo3<double>(turn);
+      for (const int j : tree.ChainOf(bone)) {
+        const Vector3d axis = pose.twists[j].head<3>();
+        right[j] += axis.dot(wanted);
+        for (const int k : tree.ChainOf(bone)) {
+          normal(j, k) += axis.dot(pose.twists[k].head<3>());
+        }
+      }
+    }
+    start.theta += normal.ldlt().solve(right);
+    tree.Clamp(start.theta);
+  }
+  return start;
 }
 
 }  // namespace vitruvia::dynamic

@@ -5,6 +5,8 @@
 
 #include "geometry/mesh.h"
 #include "math/rigid.h"
+#include "math/vector.h"
+#include "methods/dynamic/kinematic_tree.h"
 
 namespace vitruvia::dynamic {
 
@@ -14,5 +16,14 @@ namespace vitruvia::dynamic {
 // the camera frame, metres; neither may be empty.
 Rigidd UprightPlacement(const std::vector<Vector3f>& rest_vertices,
                         const std::vector<Vector3f>& cloud);
+
+// The tree's start frame and joint values that come nearest to a pose given by its bones' motions:
+// the pelvis' motion is the start frame's, and the joints' values, within their limits, turn the
+// bones as wanted (least squares over rotation vectors, camera frame).
+struct TreeStart {
+  Rigidd camera_from_start;
+  Eigen::VectorXd theta;
+};
+TreeStart StartFrom(const KinematicTree& tree, const BoneTransforms& camera_from_rest);
 
 }  // namespace vitruvia::dynamic

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "math/rigid.h"
 #include "methods/dynamic/blend.h"
 
 namespace vitruvia::dynamic {

@@ -194,7 +194,11 @@ void Settings::Describe(Fields& f) {
   f.Section("association", association, {.meaning = "which point belongs to which vertex"});
   f.Section("pose", pose, {.meaning = "damped least squares over the joints"});
   f.Section("shape", shape, {.meaning = "warps of the vertices"});
+  DescribeStart(f, start);
   f.Section("placement", placement, {.meaning = "how the rest pose is put onto the first frame"});
+  if (f.Applies(start == Start::kSearch)) {
+    f.Section("start_search", start_search, {.meaning = "search for the first pose"});
+  }
   f.Number("max_depth_m", max_depth_m,
            {.meaning = "pixels beyond are no measurement of the subject",
             .unit = "m",

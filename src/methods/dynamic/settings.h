@@ -5,6 +5,7 @@
 #include <string>
 
 #include "config/settings.h"
+#include "tracking/start_search.h"
 
 namespace vitruvia::dynamic {
 
@@ -61,7 +62,9 @@ struct Settings {
   AssociationSettings association;
   PoseSettings pose;
   ShapeSettings shape;
-  PlacementSettings placement;
+  Start start = Start::kRestPose;
+  PlacementSettings placement;       // of start kRestPose
+  StartSearchSettings start_search;  // of start kSearch
   double max_depth_m = 8.0;
   double lost_below = 0.3;
   int threads = 2;

@@ -2,6 +2,8 @@
 
 #include <Eigen/LU>
 
+#include "math/rotation.h"
+
 namespace vitruvia::realtime_scape {
 
 Matrix3<double> RelativeRotation(const Matrix3<double>& a, const Matrix3<double>& b) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "math/rigid.h"
+
 namespace vitruvia::realtime_scape {
 namespace {
 

@@ -1,5 +1,7 @@
 #include "methods/realtime_scape/model.h"
 
+#include "math/rigid.h"
+
 namespace vitruvia::realtime_scape {
 
 Model::Model(const BodyModel& subject)
@@ -46,6 +48,14 @@ BoneTransforms ToTransforms(const Model& model, const BodyPose& pose) {
                            pose[j].center - pose[j].rotation * model.rest_centers[j]};
   }
   return camera_from_rest;
+}
+
+BodyPose ToPose(const Model& model, const BoneTransforms& camera_from_rest) {
+  BodyPose pose;
+  for (int j = 0; j < kBoneCount; ++j) {
+    pose[j] = {camera_from_rest[j].rotation, camera_from_rest[j] * model.rest_centers[j]};
+  }
+  return pose;
 }
 
 void PoseSurface(const Model& model, const BodyPose& pose, PosedSurface& surface) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "body/body_model.h"
+#include "math/rigid.h"
 #include "methods/realtime_scape/body_pose.h"
 
 namespace vitruvia::realtime_scape {
@@ -41,6 +42,7 @@ struct Model {
 BodyPose RestPose(const Model& model, const Rigidd& camera_from_subject);
 
 BoneTransforms ToTransforms(const Model& model, const BodyPose& pose);
+BodyPose ToPose(const Model& model, const BoneTransforms& camera_from_rest);
 
 // The surface in some pose (camera frame).
 struct PosedSurface {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "math/rotation.h"
 #include "solver/block_normal_equations.h"
 
 namespace vitruvia::realtime_scape {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "math/rotation.h"
+
 namespace vitruvia::realtime_scape {
 namespace {
 

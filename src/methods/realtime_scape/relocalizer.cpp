@@ -1,25 +1,12 @@
 #include "methods/realtime_scape/relocalizer.h"
 
-#include <numeric>
-
+#include "geometry/point_sets.h"
 #include "math/angles.h"
 #include "tracking/cloud_parts.h"
 #include "tracking/loss_detector.h"
 #include "tracking/pose_search.h"
 
 namespace vitruvia::realtime_scape {
-namespace {
-
-Vector3d Centroid(const std::vector<Vector3f>& points) {
-  const auto add = [](const Vector3d& sum, const Vector3f& p) -> Vector3d {
-    return sum + p.cast<double>();
-  };
-  return std::accumulate(points.begin(), points.end(), Vector3d(Vector3d::Zero()), add) /
-         static_cast<double>(points.size());
-}
-
-}  // namespace
-
 // Tests hypotheses against one frame (see tracking/pose_search.h).
 class Relocalizer::Tester {
  public:

@@ -187,7 +187,11 @@ void Settings::Describe(Fields& f) {
        .source = "paper A, sec. 6.2: linear, which leaves the set of rotations"});
   f.Section("stopping", stopping, {.meaning = "stopping rule of the iterations"});
   f.Section("solver", solver, {.meaning = "solver of the linearised problem"});
+  DescribeStart(f, start);
   f.Section("placement", placement, {.meaning = "first placement of the rest pose"});
+  if (f.Applies(start == Start::kSearch)) {
+    f.Section("start_search", start_search, {.meaning = "search for the first pose"});
+  }
   f.Section("limbs", limbs, {.meaning = "search for limbs that moved away from the model"});
   f.Section("recovery", recovery, {.meaning = "detection of a lost subject and relocalisation"});
   f.Number(

@@ -10,6 +10,7 @@
 #include "tracking/depth_noise.h"
 #include "tracking/placement.h"
 #include "tracking/relocalization_settings.h"
+#include "tracking/start_search.h"
 
 namespace vitruvia::realtime_scape {
 
@@ -155,7 +156,9 @@ struct Settings {
   RotationUpdate rotation_update = RotationUpdate::kExponential;
   StoppingSettings stopping;
   SolverSettings solver;
-  PlacementSettings placement;
+  Start start = Start::kRestPose;
+  PlacementSettings placement;       // of start kRestPose
+  StartSearchSettings start_search;  // of start kSearch
   LimbSettings limbs;
   RelocalizationSettings recovery;
   double lost_below = 0.3;

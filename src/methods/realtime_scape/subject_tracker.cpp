@@ -1,6 +1,7 @@
 #include "methods/realtime_scape/subject_tracker.h"
 
 #include "core/error.h"
+#include "math/rigid.h"
 #include "tracking/placement.h"
 
 namespace vitruvia::realtime_scape {
@@ -16,16 +17,23 @@ SubjectTracker::SubjectTracker(const Subject& subject, const PinholeCamera& came
       fitter_(model_, camera, settings),
       limb_finder_(model_, camera, settings),
       relocalizer_(model_, camera, settings),
-      loss_detector_(settings.recovery) {}
+      loss_detector_(settings.recovery) {
+  if (settings.start == Start::kSearch) {
+    start_search_.emplace(subject, camera, settings.cloud.max_depth_m, settings.start_search);
+  }
+}
 
 TrackResult SubjectTracker::TrackFrame(const DepthFrame& frame) {
   CheckFrameSize(frame, camera_);
   clock_.Restart();
   const Observation& observation = observer_.Observe(frame.depth);
-  if (observation.cloud.points.empty()) return CarryOver();
-
+  if (observation.cloud.points.empty()) {
+    return CarryOver(
+        {Outcome::kNoData, "the frame holds no measurement; the pose is carried over"});
+  }
   const bool is_first = !history_;
-  if (is_first) history_ = Place(observation.cloud);
+  if (is_first) history_ = FirstPose(observation);
+  if (!history_) return CarryOver({Outcome::kLost, start_message_});
   const Prediction prediction = PredictPose(model_, *history_, settings_.motion);
   clock_.Lap(Step::kCloudTree);
 
@@ -39,7 +47,18 @@ TrackResult SubjectTracker::TrackFrame(const DepthFrame& frame) {
   history_ = Advanced(*history_, model_, fit.pose, fit.counts, settings_.search.seen_share);
   fit.times += clock_.times();
   Ending ending = EndingOf(fit);
+  if (is_first && start_search_) ending.message = WithStart(start_message_, ending.message);
   return Result(std::move(fit), std::move(ending));
+}
+
+// Nothing if the subject was searched for and not found.
+std::optional<PoseHistory> SubjectTracker::FirstPose(const Observation& observation) {
+  if (!start_search_) return Place(observation.cloud);
+  const FoundStart start = start_search_->Find(*observation.depth);
+  start_message_ = start.message;
+  clock_.Lap(Step::kRelocalize);
+  if (!start.found) return {};
+  return AtRest(ToPose(model_, start.camera_from_rest));
 }
 
 PoseHistory SubjectTracker::Place(const PointCloud& cloud) const {
@@ -79,9 +98,9 @@ FitSummary SubjectTracker::TakeBetterPose(const Observation& observation, FitSum
   return *std::move(found);
 }
 
-// A frame without measurements: the pose stays; before the first one with any it is the rest pose
+// A frame that cannot be fitted: the pose stays; before the first one that can it is the rest pose
 // at the camera.
-TrackResult SubjectTracker::CarryOver() {
+TrackResult SubjectTracker::CarryOver(Ending ending) {
   loss_detector_.NoteEmptyFrame();
   FitSummary fit;
   if (history_) {
@@ -90,8 +109,7 @@ TrackResult SubjectTracker::CarryOver() {
     fit.surface = {model_.rest_vertices, BoneTransforms(kBoneCount)};
   }
   fit.energy_rise = settings_.solver.watch_energy ? 0.0 : -1.0;
-  return Result(std::move(fit),
-                {Outcome::kNoData, "the frame holds no measurement; the pose is carried over"});
+  return Result(std::move(fit), std::move(ending));
 }
 
 SubjectTracker::Ending SubjectTracker::EndingOf(const FitSummary& fit) const {

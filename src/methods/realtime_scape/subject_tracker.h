@@ -24,10 +24,11 @@ class SubjectTracker {
     std::string message;
   };
 
+  std::optional<PoseHistory> FirstPose(const Observation& observation);
   PoseHistory Place(const PointCloud& cloud) const;
   FitSummary TakeBetterPose(const Observation& observation, FitSummary fit, bool is_first);
   FitSummary TakeFoundLimb(const Observation& observation, FitSummary fit);
-  TrackResult CarryOver();
+  TrackResult CarryOver(Ending ending);
   Ending EndingOf(const FitSummary& fit) const;
   TrackResult Result(FitSummary fit, Ending ending) const;
 
@@ -39,6 +40,8 @@ class SubjectTracker {
   LimbFinder limb_finder_;
   Relocalizer relocalizer_;
   LossDetector loss_detector_;
+  std::optional<StartSearch> start_search_;
+  std::string start_message_;  // of the last search
   StepClock<RealtimeScapeStep> clock_;
   std::optional<PoseHistory> history_;  // from the first frame with measurements on
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/rotation.h"
 #include "methods/realtime_scape/body_pose.h"
 #include "solver/block_normal_equations.h"
 

@@ -1,0 +1,12 @@
+// vitruvia rig: a subject of a person's meshes.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace vitruvia {
+
+void AddRigCommand(CLI::App& app);
+
+}  // namespace vitruvia

@@ -1,0 +1,58 @@
+// A person cut out of a depth recording.
+//
+//   LearnRoom (room.h)      from sampled frames: background, noise, floor
+//   PiecesOf                frame by frame, in any order and on any thread
+//   PeopleFollower          (following.h) frame by frame, in order
+//   ChoosePerson            who it is, once all frames are known
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cutout/following.h"
+
+namespace vitruvia {
+
+// The pieces of one frame's foreground.
+Pieces PiecesOf(const DepthImage& depth, const Room& room, const CutoutSettings& settings);
+
+// The chosen person. Somebody who leaves and comes back has several numbers: people who are never
+// seen together with one already chosen are taken for the same.
+struct ChosenPerson {
+  std::vector<int> numbers;  // from 1, the first is the one that the settings choose
+};
+
+// Nothing where nobody was seen. `at_pixel`: who is at the pixel of the settings, 0 for nobody;
+// used by PersonChoice::kPixel alone.
+std::optional<ChosenPerson> ChoosePerson(const std::vector<FollowedPerson>& people,
+                                         const PersonSettings& settings, int at_pixel);
+
+// 255 where the chosen person is.
+MaskImage MaskOf(const Image<std::uint8_t>& people, const ChosenPerson& chosen);
+
+struct UnsureFrame {
+  int frame = 0;
+  std::string why;
+};
+
+// What is known of the cut after the last frame.
+struct CutoutReport {
+  int frames = 0, frames_without_person = 0;
+  int area_jumps = 0;
+  double pixel_share = 0.0;  // of the image, mean over the frames with the person
+  double area_m2 = 0.0;      // median
+  std::vector<UnsureFrame> unsure;
+};
+
+// `pixel_shares`: of each frame's mask.
+CutoutReport ReportCutout(const std::vector<FollowedPerson>& people, const ChosenPerson& chosen,
+                          const std::vector<double>& pixel_shares,
+                          const FollowingSettings& settings);
+
+// How well a mask agrees with the true one, over the pixels that are measured: shared / either.
+// NaN where both are empty.
+double MaskOverlap(const MaskImage& mask, const MaskImage& truth, const DepthImage& depth);
+
+}  // namespace vitruvia

@@ -1,0 +1,24 @@
+// The sheet of pictures that shows a cut.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cutout/cutout.h"
+
+namespace vitruvia {
+
+// One picture of a sheet: depth in grey, the chosen person green, other people in other colours
+// with their numbers, a red border where the frame is unsure.
+struct SheetFrame {
+  int frame = 0;
+  DepthImage depth;
+  Image<std::uint8_t> people;
+  bool is_unsure = false;
+};
+
+// The sheet as the bytes of a PNG file.
+std::string CutoutSheet(const std::vector<SheetFrame>& frames, const ChosenPerson& chosen);
+
+}  // namespace vitruvia

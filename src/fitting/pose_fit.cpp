@@ -1,0 +1,163 @@
+#include "fitting/pose_fit.h"
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+#include "math/angles.h"
+#include "math/rotation.h"
+
+namespace vitruvia {
+namespace {
+
+constexpr int kRows = 256;  // added as one product
+
+BodyState Stepped(BodyState state, const Eigen::VectorXd& step) {
+  state.rotation = ExpSo3<double>(step.segment<3>(PosedBody::kRotation)) * state.rotation;
+  state.pelvis_position += step.segment<3>(PosedBody::kPosition);
+  state.angles_deg += step.segment<kAngleCount>(PosedBody::kAngles) / kRadiansPerDegree;
+  state.angles_deg =
+      state.angles_deg.cwiseMax(JointLimits().min_deg).cwiseMin(JointLimits().max_deg);
+  state.theta += step.tail(state.theta.size());
+  return state;
+}
+
+double Cutoff(const FitStage& stage, int iteration) {
+  if (stage.iterations < 2) return stage.last_cutoff_m;
+  return stage.first_cutoff_m *
+         std::pow(stage.last_cutoff_m / stage.first_cutoff_m, iteration / (stage.iterations - 1.0));
+}
+
+// Solves H x = −g for the free unknowns; the others keep their values of x.
+void SolveFree(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient,
+               const std::vector<int>& free, Eigen::VectorXd& x) {
+  const auto n = static_cast<Eigen::Index>(free.size());
+  Eigen::MatrixXd h(n, n);
+  Eigen::VectorXd g(n);
+  Eigen::VectorXd held = x;
+  for (const int i : free) held[i] = 0.0;
+  const Eigen::VectorXd moved = gradient + hessian * held;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    g[i] = moved[free[i]];
+    for (Eigen::Index j = 0; j < n; ++j) h(i, j) = hessian(free[i], free[j]);
+  }
+  const Eigen::VectorXd solution = h.ldlt().solve(-g);
+  for (Eigen::Index i = 0; i < n; ++i) x[free[i]] = solution[i];
+}
+
+}  // namespace
+
+void PoseFit::Assemble(const FitStage& stage, double robust_m, const FitPriors& priors) {
+  const int columns = posed_.parameter_count();
+  rows_.resize(kRows, columns);
+  residuals_.resize(kRows);
+  hessian_.setZero(columns, columns);
+  gradient_.setZero(columns);
+  const auto robust = static_cast<float>(robust_m);
+  const auto point_share = static_cast<float>(stage.point_share);
+  const float plane_share = 1.0f - point_share;
+  const float scale = static_cast<float>(
+      std::sqrt(priors.point_count / std::max<double>(1.0, static_cast<double>(pairs_.size()))) /
+      priors.point_deviation_m);
+  int filled = 0;
+  const auto flush = [&] {
+    const auto block = rows_.topRows(filled);
+    hessian_.selfadjointView<Eigen::Lower>().rankUpdate(block.transpose());
+    gradient_.noalias() += block.transpose() * residuals_.head(filled);
+    filled = 0;
+  };
+  const auto add = [&](int vertex, const Vector3f& n, float weight, float residual) {
+    posed_.Row(vertex, n, rows_.row(filled).data());
+    rows_.row(filled) *= weight;
+    residuals_[filled] = weight * residual;
+    if (++filled == kRows) flush();
+  };
+  for (const FitPair& pair : pairs_) {
+    const Vector3f d = posed_.vertices()[static_cast<std::size_t>(pair.vertex)] - pair.target;
+    const float along = pair.normal.dot(d);
+    const float squared = plane_share * along * along + point_share * d.squaredNorm();
+    const float weight = scale * std::sqrt(pair.weight) / (1.0f + squared / (robust * robust));
+    if (plane_share > 0.0f) {
+      add(pair.vertex, pair.normal, weight * std::sqrt(plane_share), along);
+    }
+    if (point_share > 0.0f) {
+      for (int k = 0; k < 3; ++k) {
+        add(pair.vertex, Vector3f::Unit(k), weight * std::sqrt(point_share), d[k]);
+      }
+    }
+  }
+  if (filled > 0) flush();
+}
+
+Eigen::VectorXd PoseFit::Step(const BodyState& state, const FitStage& stage,
+                              const FitPriors& priors) {
+  const int columns = posed_.parameter_count();
+  Eigen::MatrixXd hessian = hessian_.cast<double>().selfadjointView<Eigen::Lower>();
+  Eigen::VectorXd gradient = gradient_.cast<double>();
+  constexpr double kDamping = 1e-3;
+  hessian.diagonal().array() += kDamping;
+  const double stiffness = 1.0 / std::pow(priors.angle_deviation_deg * kRadiansPerDegree, 2);
+  for (int a = 0; a < kAngleCount; ++a) {
+    const int at = PosedBody::kAngles + a;
+    hessian(at, at) += stiffness;
+    gradient[at] += stiffness * kRadiansPerDegree * (state.angles_deg[a] - priors.angles_deg[a]);
+  }
+  for (int k = PosedBody::kShape; k < columns; ++k) {
+    hessian(k, k) += 1.0;
+    gradient[k] += state.theta[k - PosedBody::kShape] - priors.theta[k - PosedBody::kShape];
+  }
+  std::vector<int> free;
+  for (int k = 0; k < (stage.moves_shape ? columns : PosedBody::kShape); ++k) free.push_back(k);
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(columns);
+  const AngleRanges& limits = JointLimits();
+  constexpr int kMostRounds = 4;  // of holding angles at their limits
+  for (int round = 0; round < kMostRounds; ++round) {
+    SolveFree(hessian, gradient, free, step);
+    std::vector<int> still_free;
+    for (const int k : free) {
+      const int a = k - PosedBody::kAngles;
+      if (a < 0 || a >= kAngleCount) {
+        still_free.push_back(k);
+        continue;
+      }
+      const double lowest = kRadiansPerDegree * (limits.min_deg[a] - state.angles_deg[a]);
+      const double highest = kRadiansPerDegree * (limits.max_deg[a] - state.angles_deg[a]);
+      if (step[k] >= lowest && step[k] <= highest) still_free.push_back(k);
+      step[k] = std::clamp(step[k], lowest, highest);
+    }
+    if (still_free.size() == free.size()) break;
+    free = std::move(still_free);
+  }
+  return step;
+}
+
+BodyState PoseFit::Run(FitTarget& target, BodyState state, const FitStage& stage,
+                       const FitPriors& priors) {
+  constexpr double kLongestStep = 0.6;  // rad and 0.6 m: linearisation holds no farther
+  for (int i = 0; i < stage.iterations; ++i) {
+    const double cutoff_m = Cutoff(stage, i);
+    posed_.Set(state);
+    target.FindPairs(posed_, cutoff_m, pairs_);
+    if (pairs_.empty()) break;
+    posed_.Differentiate();
+    Assemble(stage, 0.5 * cutoff_m, priors);
+    Eigen::VectorXd step = Step(state, stage, priors);
+    const double longest = step.head(PosedBody::kShape).cwiseAbs().maxCoeff();
+    if (longest > kLongestStep) step *= kLongestStep / longest;
+    state = Stepped(std::move(state), step);
+  }
+  return state;
+}
+
+MutualDistance PoseFit::Measure(FitTarget& target, const BodyState& state, const NearFar& limits) {
+  posed_.Set(state);
+  return target.Measure(posed_, limits);
+}
+
+BodyState PoseFit::Centered(FitTarget& target, BodyState state) {
+  posed_.Set(state);
+  state.pelvis_position += target.Center() - target.VisibleCenter(posed_);
+  return state;
+}
+
+}  // namespace vitruvia

@@ -1,0 +1,54 @@
+// Fits pose, place and shape of a body to a target, from one start.
+//
+// Gauss–Newton on Σ w ρ(r) over pairs found anew in each iteration (Geman–McClure's ρ with a width
+// that shrinks), with joint limits as bounds of the angles (an angle that a step would carry beyond
+// a limit is held there, and the others are solved for again), and priors on angles and shape.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "fitting/fit_target.h"
+
+namespace vitruvia {
+
+// One stage of a fit, coarse or fine.
+struct FitStage {
+  int iterations = 10;
+  double first_cutoff_m = 0.3, last_cutoff_m = 0.1;  // of a pair's distance
+  double point_share = 0.2;  // of the squared distance in space; the rest is that along the normal
+  bool moves_shape = false;
+};
+
+struct FitPriors {
+  AngleVector angles_deg = AngleVector::Zero();  // the pose that is expected
+  double angle_deviation_deg = 40.0;
+  Eigen::VectorXd theta;            // the shape that is expected
+  double point_deviation_m = 0.02;  // of a pair's residual
+  double point_count = 300.0;       // independent points that all pairs together stand for
+};
+
+class PoseFit {
+ public:
+  // The body must outlive the fit.
+  explicit PoseFit(const ShapedBody& body) : posed_(body) {}
+
+  const ShapedBody& body() const { return posed_.body(); }
+
+  BodyState Run(FitTarget& target, BodyState start, const FitStage& stage, const FitPriors& priors);
+  MutualDistance Measure(FitTarget& target, const BodyState& state, const NearFar& limits);
+  // The state moved so that what is visible of the body has its centroid on the target's.
+  BodyState Centered(FitTarget& target, BodyState state);
+
+ private:
+  void Assemble(const FitStage& stage, double robust_m, const FitPriors& priors);
+  Eigen::VectorXd Step(const BodyState& state, const FitStage& stage, const FitPriors& priors);
+
+  PosedBody posed_;
+  std::vector<FitPair> pairs_;
+  Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows_;
+  Eigen::VectorXf residuals_;
+  Eigen::MatrixXf hessian_;
+  Eigen::VectorXf gradient_;
+};
+
+}  // namespace vitruvia

@@ -1,0 +1,94 @@
+#include "geometry/image_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "core/error.h"
+#include "core/files.h"
+
+namespace vitruvia {
+namespace {
+
+constexpr std::array<std::string_view, 5> kEndings{".png", ".pgm", ".tif", ".tiff", ".exr"};
+
+std::string EndingOf(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+// OpenCV reads and writes OpenEXR only if this variable is set before its first use.
+void AllowOpenExr() {
+  static const int done = setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 0);
+  static_cast<void>(done);
+}
+
+cv::Mat Decoded(std::string& bytes, const std::string& where) {
+  AllowOpenExr();
+  const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data());
+  try {
+    return cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
+  } catch (const cv::Exception& error) {
+    throw DataError(fmt::format("{}: cannot be decoded: {}", where, error.err));
+  }
+}
+
+int TypeOf(StoredNumbers numbers) {
+  switch (numbers) {
+    case StoredNumbers::kBits8:
+      return CV_8UC1;
+    case StoredNumbers::kBits16:
+      return CV_16UC1;
+    case StoredNumbers::kFloat:
+      return CV_32FC1;
+  }
+  return CV_32FC1;
+}
+
+}  // namespace
+
+bool IsImageFile(const std::filesystem::path& file) {
+  return std::find(kEndings.begin(), kEndings.end(), EndingOf(file)) != kEndings.end();
+}
+
+Image<float> ReadImageFile(const std::filesystem::path& file) {
+  const std::string where = file.string();
+  std::string bytes = ReadWholeFile(file);
+  const cv::Mat raw = bytes.empty() ? cv::Mat() : Decoded(bytes, where);
+  if (raw.empty()) {
+    throw DataError(fmt::format(
+        "{}: expected a PNG, PGM, TIFF or OpenEXR image, but its {} bytes cannot be decoded; is it "
+        "cut short?",
+        where, bytes.size()));
+  }
+  if (raw.channels() != 1) {
+    throw DataError(fmt::format(
+        "{}: expected one channel of depth, found {} channels of {} bits; is it a colour image?",
+        where, raw.channels(), 8 * raw.elemSize1()));
+  }
+  Image<float> image(raw.cols, raw.rows);
+  cv::Mat values(raw.rows, raw.cols, CV_32FC1, image.pixels().data());
+  raw.convertTo(values, CV_32F);
+  return image;
+}
+
+void WriteImageFile(const std::filesystem::path& file, const Image<float>& image,
+                    StoredNumbers numbers) {
+  AllowOpenExr();
+  const cv::Mat values(image.height(), image.width(), CV_32FC1,
+                       const_cast<float*>(image.pixels().data()));
+  cv::Mat stored;
+  values.convertTo(stored, TypeOf(numbers));
+  std::vector<std::uint8_t> bytes;
+  if (!cv::imencode(EndingOf(file), stored, bytes))
+    throw RunError(fmt::format("{}: cannot be encoded", file.string()));
+  WriteWholeFile(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+}  // namespace vitruvia

@@ -1,0 +1,23 @@
+// Images of one channel as other programs write them: numbers as they are stored, without a unit.
+#pragma once
+
+#include <filesystem>
+
+#include "geometry/image.h"
+
+namespace vitruvia {
+
+// PNG, PGM, TIFF and OpenEXR files of 8, 16 or 32 bits, whole numbers or floating point.
+bool IsImageFile(const std::filesystem::path& file);
+
+// The stored numbers; NaN and infinities stay. DataError naming the file if it is missing, damaged,
+// or has more than one channel.
+Image<float> ReadImageFile(const std::filesystem::path& file);
+
+// By the ending of the name. Whole numbers are rounded and must fit. For tests and small tools:
+// the sequence format has its own writers.
+enum class StoredNumbers { kBits8, kBits16, kFloat };
+void WriteImageFile(const std::filesystem::path& file, const Image<float>& image,
+                    StoredNumbers numbers);
+
+}  // namespace vitruvia

@@ -1,0 +1,25 @@
+// Sets of points on surfaces.
+#pragma once
+
+#include <vector>
+
+#include "geometry/mesh.h"
+
+namespace vitruvia {
+
+// The mean of the points; the origin if there are none.
+Vector3d Centroid(const std::vector<Vector3f>& points);
+
+// Points with outward normals of unit length.
+struct OrientedPoints {
+  std::vector<Vector3f> points, normals;
+};
+
+// `count` of them, evenly spaced by index; all if there are no more.
+OrientedPoints EvenlyChosen(const OrientedPoints& all, int count);
+
+// `count` points that cover the surface evenly: the same for the same mesh, whatever the sizes of
+// its triangles. DataError if the mesh has no area.
+OrientedPoints SampleSurface(const TriangleMesh& mesh, int count);
+
+}  // namespace vitruvia

@@ -1,0 +1,352 @@
+#include "importers/depth_import.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include "config/json_settings.h"
+#include "core/build_info.h"
+#include "core/error.h"
+#include "core/progress.h"
+#include "core/worker_team.h"
+#include "cutout/packed_labels.h"
+#include "cutout/sheet.h"
+#include "importers/checked_sequence.h"
+#include "importers/depth_frames.h"
+#include "importers/depth_recording.h"
+#include "math/statistics.h"
+#include "sequence/sequence.h"
+
+namespace vitruvia {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double kUsualFps = 30.0;
+constexpr double kNearestRoom_m = 0.2, kFarthestRoom_m = 20.0;  // median depth of a recording
+constexpr std::size_t kEveryPixel = 97;                         // looked at for that median
+constexpr int kBatch = 16;              // frames that are worked on together
+constexpr int kSheetFrames = 12;        // of the preview
+constexpr int kNamedUnsureFrames = 50;  // in the provenance
+
+// `count` of them evenly spread, the first and the last among them.
+std::vector<int> Spread(int all, int count) {
+  std::vector<int> chosen;
+  for (int i = 0; i < std::min(all, count); ++i)
+    chosen.push_back(all <= count ? i
+                                  : static_cast<int>(std::lround(i * (all - 1.0) / (count - 1))));
+  return chosen;
+}
+
+// The files of a recording in the order of its frames; empty where one is missing.
+struct Frames {
+  std::vector<fs::path> files;
+  double fps = 0.0;
+  int missing = 0;
+  std::vector<std::string> gaps;
+};
+
+void RequireRange(const FrameRange& range, std::size_t frames, const fs::path& images) {
+  if (static_cast<std::size_t>(range.first) + static_cast<std::size_t>(std::max(1, range.count)) <=
+      frames)
+    return;
+  throw DataError(fmt::format("{}: frames: first is {} and count {}, but there are {} frames",
+                              images.string(), range.first, range.count, frames));
+}
+
+Frames ChosenFrames(const DepthImportSettings& s) {
+  const DepthRecording recording = FindRecordedFrames(s.images);
+  Frames frames{recording.frames, s.fps, 0, recording.gaps};
+  if (frames.fps == 0.0) frames.fps = recording.fps > 0.0 ? recording.fps : kUsualFps;
+  if (s.missing_frames == MissingFrames::kSkip)
+    std::erase_if(frames.files, [](const fs::path& file) { return file.empty(); });
+  RequireRange(s.frames, frames.files.size(), s.images);
+  const auto first = frames.files.begin() + s.frames.first;
+  frames.files = {first, s.frames.count > 0 ? first + s.frames.count : frames.files.end()};
+  frames.missing = static_cast<int>(std::count(frames.files.begin(), frames.files.end(), ""));
+  return frames;
+}
+
+std::vector<fs::path> FilesWithoutPerson(const DepthImportSettings& s) {
+  if (s.cutout.background.source != BackgroundSource::kEmptyFrames) return {};
+  const fs::path& images = s.empty_frames.images.empty() ? s.images : s.empty_frames.images;
+  std::vector<fs::path> files = FindRecordedFrames(images).frames;
+  std::erase_if(files, [](const fs::path& file) { return file.empty(); });
+  RequireRange({s.empty_frames.first, s.empty_frames.count}, files.size(), images);
+  const auto first = files.begin() + s.empty_frames.first;
+  return {first, s.empty_frames.count > 0 ? first + s.empty_frames.count : files.end()};
+}
+
+// Reads frames on all threads.
+class FrameReader {
+ public:
+  FrameReader(const DepthImportSettings& s, WorkerTeam& team)
+      : stored_{s.camera.AsCamera(), s.unit_m, s.invalid, s.orientation},
+        camera_(OrientedCamera(stored_.camera, s.orientation)),
+        team_(team) {}
+
+  const PinholeCamera& camera() const { return camera_; }
+
+  DepthImage Read(const fs::path& file) const {
+    return file.empty() ? DepthImage(camera_.width, camera_.height) : ReadDepthFrame(file, stored_);
+  }
+
+  // The first file that is there is read first: what is wrong with all is said of that one.
+  std::vector<DepthImage> ReadSample(const std::vector<fs::path>& files, int count) const {
+    const auto first = std::find_if(files.begin(), files.end(),
+                                    [](const fs::path& file) { return !file.empty(); });
+    if (first != files.end()) Read(*first);
+    const std::vector<int> chosen = Spread(static_cast<int>(files.size()), count);
+    std::vector<DepthImage> images(chosen.size());
+    team_.For(static_cast<int>(chosen.size()), 1, [&](int begin, int end) {
+      for (int i = begin; i < end; ++i)
+        images[static_cast<std::size_t>(i)] =
+            Read(files[static_cast<std::size_t>(chosen[static_cast<std::size_t>(i)])]);
+    });
+    return images;
+  }
+
+ private:
+  StoredDepth stored_;
+  PinholeCamera camera_;
+  WorkerTeam& team_;
+};
+
+// Depth in another unit is the likeliest mistake of all, and makes everything after it fail with
+// messages that say nothing of it.
+void RequireRoom(const std::vector<DepthImage>& sample, const DepthImportSettings& s) {
+  std::vector<double> depths;
+  for (const DepthImage& image : sample) {
+    for (std::size_t i = 0; i < image.pixels().size(); i += kEveryPixel) {
+      if (image.pixels()[i] > 0.0f) depths.push_back(image.pixels()[i]);
+    }
+  }
+  const std::string where = s.images.string();
+  if (depths.empty()) {
+    throw DataError(fmt::format(
+        "{}: none of {} frames looked at holds a measurement: every pixel is 0, not finite or one "
+        "of `invalid`; is this a recording of empty frames?",
+        where, sample.size()));
+  }
+  const double median_m = Quantile(depths, 0.5);
+  if (median_m >= kNearestRoom_m && median_m <= kFarthestRoom_m) return;
+  const double factor = std::pow(10.0, -std::round(std::log10(median_m / 2.0)));
+  throw DataError(fmt::format(
+      "{}: the median depth is {:.4g} m, expected {} to {} m; the stored value is {:.5g} and "
+      "`unit_m` {:g}; is `unit_m` {:g} meant?",
+      where, median_m, kNearestRoom_m, kFarthestRoom_m, median_m / s.unit_m, s.unit_m,
+      s.unit_m * factor));
+}
+
+SequenceInfo InfoOf(const DepthImportSettings& s, const Frames& frames,
+                    const PinholeCamera& camera) {
+  SequenceInfo info;
+  info.camera = camera;
+  info.depth_unit_m = s.depth_unit_m;
+  info.fps = frames.fps;
+  info.frames = static_cast<int>(frames.files.size());
+  info.surface = false;
+  info.subject = !s.subject.empty();
+  info.provenance = {{"made_by", "vitruvia import"},
+                     {"import", WriteSettings(s)},
+                     {"missing_frames", frames.missing},
+                     {"gaps", frames.gaps},
+                     {"build", Provenance()}};
+  return info;
+}
+
+// What was found in a recording, frame by frame.
+struct FollowedRecording {
+  std::vector<FollowedPerson> people;
+  std::vector<PackedLabels> labels;  // of people, of each frame
+  int at_pixel = 0;                  // who is at the pixel of the settings
+  double largest_piece_m2 = 0.0, tallest_piece_m = 0.0;
+};
+
+int PersonAt(const Image<std::uint8_t>& people, const PersonSettings& pixel) {
+  return people.Contains(pixel.u, pixel.v) ? people(pixel.u, pixel.v) : 0;
+}
+
+// Follows the people of a recording, some frames at a time.
+class RecordingFollower {
+ public:
+  RecordingFollower(const FrameReader& reader, const Room& room, const CutoutSettings& settings,
+                    double fps, WorkerTeam& team)
+      : reader_(reader),
+        room_(room),
+        settings_(settings),
+        team_(team),
+        people_(room, settings, fps) {}
+
+  // Of the files that come next; returns their depth.
+  std::vector<DepthImage> Follow(std::span<const fs::path> files) {
+    std::vector<DepthImage> depths(files.size());
+    std::vector<Pieces> pieces(files.size());
+    team_.For(static_cast<int>(files.size()), 1, [&](int begin, int) {
+      const auto i = static_cast<std::size_t>(begin);
+      depths[i] = reader_.Read(files[i]);
+      pieces[i] = PiecesOf(depths[i], room_, settings_);
+    });
+    for (std::size_t i = 0; i < files.size(); ++i) Add(depths[i], pieces[i]);
+    return depths;
+  }
+
+  FollowedRecording Result() {
+    found_.people = people_.people();
+    return std::move(found_);
+  }
+
+ private:
+  void Add(const DepthImage& depth, const Pieces& pieces) {
+    const Image<std::uint8_t> people = people_.Follow(depth, pieces);
+    if (static_cast<int>(found_.labels.size()) == settings_.person.frame)
+      found_.at_pixel = PersonAt(people, settings_.person);
+    found_.labels.push_back(Pack(people));
+    if (pieces.pieces.empty()) return;
+    const Piece& largest = pieces.pieces.front();
+    found_.largest_piece_m2 = std::max(found_.largest_piece_m2, largest.area_m2);
+    found_.tallest_piece_m = std::max(found_.tallest_piece_m, double{largest.height_m()});
+  }
+
+  const FrameReader& reader_;
+  const Room& room_;
+  const CutoutSettings& settings_;
+  WorkerTeam& team_;
+  PeopleFollower people_;
+  FollowedRecording found_;
+};
+
+// Writes the depth of all frames and follows the people in them.
+FollowedRecording FollowAndWrite(std::span<const fs::path> files, RecordingFollower& follower,
+                                 WorkerTeam& team, SequenceWriter& writer, Progress& progress) {
+  for (std::size_t first = 0; first < files.size(); first += kBatch) {
+    const auto batch = files.subspan(first, std::min<std::size_t>(kBatch, files.size() - first));
+    writer.Append(follower.Follow(batch), team);
+    progress.Advance(static_cast<int>(batch.size()));
+  }
+  return follower.Result();
+}
+
+ChosenPerson RequirePerson(const FollowedRecording& found, const DepthImportSettings& s) {
+  const PersonSettings& person = s.cutout.person;
+  if (const auto chosen = ChoosePerson(found.people, person, found.at_pixel)) return *chosen;
+  const std::string where = s.images.string();
+  if (!found.people.empty()) {
+    throw DataError(fmt::format(
+        "{}: cutout.person: nobody is at column {}, row {} of frame {}; {} people are seen in the "
+        "recording",
+        where, person.u, person.v, person.frame, found.people.size()));
+  }
+  throw DataError(fmt::format(
+      "{}: no person is found in any of {} frames: in front of the room the largest piece has "
+      "{:.2g} "
+      "m², the largest pieces are up to {:.2g} m high; expected at least {:g} m² and {:g} to {:g} "
+      "m "
+      "(cutout.person.size). Does the person stand still all the time, so that they count as "
+      "background (cutout.background), or beyond far_m ({:g} m)?",
+      where, found.labels.size(), found.largest_piece_m2, found.tallest_piece_m,
+      person.size.least_area_m2, person.size.least_height_m, person.size.most_height_m,
+      s.cutout.far_m));
+}
+
+// Writes all masks; returns each one's share of the image.
+std::vector<double> WriteMasks(const FollowedRecording& found, const ChosenPerson& chosen,
+                               const SequenceWriter& writer, WorkerTeam& team) {
+  std::vector<double> shares(found.labels.size());
+  team.For(static_cast<int>(shares.size()), 1, [&](int begin, int) {
+    const auto i = static_cast<std::size_t>(begin);
+    const MaskImage mask = MaskOf(Unpacked(found.labels[i]), chosen);
+    const auto kept = std::count(mask.pixels().begin(), mask.pixels().end(), 255);
+    shares[i] = static_cast<double>(kept) / static_cast<double>(mask.pixels().size());
+    writer.WriteMask(begin, mask);
+  });
+  return shares;
+}
+
+// Frames spread over the recording, half of them unsure ones where there are so many.
+std::vector<int> FramesToShow(int frames, const CutoutReport& report) {
+  std::vector<int> shown;
+  const auto unsure = static_cast<int>(report.unsure.size());
+  for (const int i : Spread(unsure, std::min(unsure, kSheetFrames / 2)))
+    shown.push_back(report.unsure[static_cast<std::size_t>(i)].frame);
+  for (const int i : Spread(frames, kSheetFrames - static_cast<int>(shown.size())))
+    shown.push_back(i);
+  std::sort(shown.begin(), shown.end());
+  shown.erase(std::unique(shown.begin(), shown.end()), shown.end());
+  return shown;
+}
+
+std::string Sheet(const FrameReader& reader, const std::vector<fs::path>& files,
+                  const FollowedRecording& found, const ChosenPerson& chosen,
+                  const CutoutReport& report) {
+  std::vector<SheetFrame> shown;
+  for (const int i : FramesToShow(static_cast<int>(files.size()), report)) {
+    const auto at = static_cast<std::size_t>(i);
+    const bool is_unsure = std::any_of(report.unsure.begin(), report.unsure.end(),
+                                       [i](const UnsureFrame& frame) { return frame.frame == i; });
+    shown.push_back({i, reader.Read(files[at]), Unpacked(found.labels[at]), is_unsure});
+  }
+  return CutoutSheet(shown, chosen);
+}
+
+Json NoteOf(const DepthImport& result) {
+  Json unsure = Json::array();
+  for (const UnsureFrame& frame : result.cut.unsure) {
+    if (unsure.size() < kNamedUnsureFrames)
+      unsure.push_back({{"frame", frame.frame}, {"why", frame.why}});
+  }
+  Json note = {{"people", result.people},
+               {"chosen", result.chosen.numbers},
+               {"frames_without_person", result.cut.frames_without_person},
+               {"area_jumps", result.cut.area_jumps},
+               {"pixel_share", result.cut.pixel_share},
+               {"area_m2", result.cut.area_m2},
+               {"noise_at_1m_m", result.room.noise_at_1m_m},
+               {"unsure_frames", result.cut.unsure.size()},
+               {"unsure", unsure}};
+  if (const auto& floor = result.room.floor) {
+    note["floor"] = {{"up", {floor->up.x(), floor->up.y(), floor->up.z()}},
+                     {"camera_height_m", floor->height_m},
+                     {"share", floor->share}};
+  }
+  return note;
+}
+
+}  // namespace
+
+DepthImport ImportDepthSequence(const DepthImportSettings& s, int threads, const fs::path& folder) {
+  std::optional<BodyModel> subject;
+  if (!s.subject.empty()) subject = ReadBodyModel(s.subject);
+  const Frames frames = ChosenFrames(s);
+  WorkerTeam team(threads);
+  const FrameReader reader(s, team);
+  const int samples = s.cutout.background.samples;
+  const std::vector<DepthImage> sample = reader.ReadSample(frames.files, samples);
+  RequireRoom(sample, s);
+  const std::vector<DepthImage> empty = reader.ReadSample(FilesWithoutPerson(s), samples);
+
+  DepthImport result;
+  result.camera = reader.camera();
+  result.fps = frames.fps;
+  result.frames = static_cast<int>(frames.files.size());
+  result.missing = frames.missing;
+  result.gaps = frames.gaps;
+  result.room = LearnRoom(sample, empty, reader.camera(), s.cutout);
+  SequenceWriter writer(folder, InfoOf(s, frames, reader.camera()), subject);
+  FollowedRecording found;
+  {
+    Progress progress("import " + folder.filename().string(), result.frames);
+    RecordingFollower follower(reader, result.room, s.cutout, frames.fps, team);
+    found = FollowAndWrite(frames.files, follower, team, writer, progress);
+  }
+  result.people = static_cast<int>(found.people.size());
+  result.chosen = RequirePerson(found, s);
+  const std::vector<double> shares = WriteMasks(found, result.chosen, writer, team);
+  result.cut = ReportCutout(found.people, result.chosen, shares, s.cutout.following);
+  writer.WritePreview(Sheet(reader, frames.files, found, result.chosen, result.cut));
+  writer.Note("cutout", NoteOf(result));
+  PublishChecked(writer, folder, {});
+  return result;
+}
+
+}  // namespace vitruvia

@@ -1,0 +1,251 @@
+#include "learning/registration/registration.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "fitting/depth_target.h"
+#include "math/rigid.h"
+
+namespace vitruvia {
+namespace {
+
+constexpr int kCoarseSeekers = 500, kFineSeekers = 2000;
+constexpr DepthTargetSettings kCoarseFrame{80, 2000, 400};
+constexpr DepthTargetSettings kFineFrame{160, 6000, 1500};
+constexpr double kLowest_m = 0.4, kHighest_m = 2.8;  // a child that crouches; raised arms
+constexpr double kMostUnusual = 3.0;  // shape of known attributes, standard deviations
+
+// The space's first coefficients, and as the last one a uniform scale about the vertices' mean.
+ShapedBody WithScale(const ShapeSpace& space, int components, double scale_deviation) {
+  ShapedBody body;
+  body.triangles = space.reference.rest.triangles;
+  body.weights = space.reference.weights;
+  body.mean = Shape(space, Eigen::VectorXd());
+  for (int b = 0; b < kBoneCount; ++b) {
+    body.skeleton.joints[b] = space.joint_mean.segment<3>(3 * b);
+    body.skeleton.tips[b] = space.joint_mean.segment<3>(3 * (kBoneCount + b));
+  }
+  body.basis.resize(space.mean.size(), components + 1);
+  body.basis << space.basis.leftCols(components), space.mean * static_cast<float>(scale_deviation);
+  body.joint_basis.resize(space.joint_mean.size(), components + 1);
+  body.joint_basis << space.joint_basis.leftCols(components), space.joint_mean * scale_deviation;
+  return body;
+}
+
+double HeightOf(const std::vector<Vector3f>& vertices) { return BoundingBox(vertices).sizes().y(); }
+
+}  // namespace
+
+void RegistrationSettings::Describe(Fields& f) {
+  f.Integer("components", components,
+            {.meaning = "coefficients of the shape space that are fitted to a surface",
+             .min = 0,
+             .max = 1000,
+             .origin = Origin::kGuessed});
+  f.Number("scale_deviation", scale_deviation,
+           {.meaning = "standard deviation of a body's uniform scale, which is fitted besides the "
+                       "shape space's coefficients",
+            .min = 0.001,
+            .max = 1.0,
+            .origin = Origin::kGuessed,
+            .source = "statures vary by 4 % among adults; children are outside of most spaces"});
+  f.Integer("headings", headings,
+            {.meaning = "directions, evenly spaced, in which each start pose of the search faces",
+             .min = 1,
+             .max = 72,
+             .origin = Origin::kGuessed});
+  f.Choice("clothing", clothing, {{"none", Clothing::kNone}, {"loose", Clothing::kLoose}},
+           {.meaning = "what the person wears; loose: the body may lie inside of the surface at a "
+                       "lower cost than outside",
+            .origin = Origin::kGuessed});
+  f.Integer("coarse_vertices", coarse_vertices,
+            {.meaning = "vertices of the body while hypotheses are compared",
+             .min = 100,
+             .max = 100000,
+             .origin = Origin::kGuessed});
+  f.Integer("fine_vertices", fine_vertices,
+            {.meaning = "vertices of the body while the best hypotheses are refined",
+             .min = 100,
+             .max = 100000,
+             .origin = Origin::kGuessed});
+  f.Integer("surface_points", surface_points,
+            {.meaning = "points, evenly spread, that stand for a surface",
+             .min = 500,
+             .max = 1000000,
+             .origin = Origin::kGuessed});
+  f.Number("angle_deviation_deg", angle_deviation_deg,
+           {.meaning = "standard deviation of a joint angle from its start pose",
+            .unit = "deg",
+            .min = 1.0,
+            .max = 180.0,
+            .origin = Origin::kGuessed});
+  f.Number("near_m", near_m,
+           {.meaning = "distance within which body and surface explain each other",
+            .unit = "m",
+            .min = 0.001,
+            .max = 1.0,
+            .origin = Origin::kGuessed});
+  f.Number("far_m", far_m,
+           {.meaning = "distance beyond which body and surface are equally far from each other",
+            .unit = "m",
+            .min = 0.001,
+            .max = 1.0,
+            .origin = Origin::kGuessed});
+  f.Number("least_explained", least_explained,
+           {.meaning = "share of the surface, and of the body, that must be explained for the "
+                       "surface to be a person's",
+            .min = 0.0,
+            .max = 1.0,
+            .origin = Origin::kGuessed});
+  f.Number("most_distance_m", most_distance_m,
+           {.meaning = "largest mean distance of body and surface for the surface to be a person's",
+            .unit = "m",
+            .min = 0.0,
+            .max = 1.0,
+            .origin = Origin::kGuessed});
+}
+
+Registrar::Registrar(const ShapeSpace& space, const KnownAttributes& known,
+                     const RegistrationSettings& settings)
+    : space_(space), settings_(settings), known_(known) {
+  if (settings.components > space.components()) {
+    throw ConfigError(
+        fmt::format("registration: components: expected at most the {} of the shape space, got {}",
+                    space.components(), settings.components));
+  }
+  expected_ = ShapeOfSize(space, known, settings.components, kMostUnusual);
+  const ShapedBody whole = WithScale(space, settings.components, settings.scale_deviation);
+  fine_body_ = Coarser(whole, settings.fine_vertices);
+  coarse_body_ = Coarser(whole, settings.coarse_vertices);
+  fine_ = std::make_unique<PoseFit>(fine_body_);
+  coarse_ = std::make_unique<PoseFit>(coarse_body_);
+}
+
+Registrar::~Registrar() = default;
+
+// What is expected of the person; if the height is not known, scaled so that the posed body is as
+// high as what is seen.
+Eigen::VectorXd Registrar::StartShape(const PoseHypothesis& hypothesis, double height_m) const {
+  const auto scaled = [&](double scale) {
+    Eigen::VectorXd theta(fine_body_.shape_count());
+    theta << scale * expected_.theta, (scale - 1.0) / settings_.scale_deviation;
+    return theta;
+  };
+  if (known_.height_m) return scaled(expected_.scale);
+  BodyState state = hypothesis.state;
+  state.theta = scaled(1.0);
+  PosedBody posed(coarse_body_);
+  posed.Set(state);
+  constexpr double kLeastHeight_m = 0.7, kMostHeight_m = 2.2;
+  const double standing_m = HeightOf(ShapedSurface(coarse_body_, state.theta));
+  return scaled(std::clamp(height_m / HeightOf(posed.vertices()), kLeastHeight_m / standing_m,
+                           kMostHeight_m / standing_m));
+}
+
+Registration Registrar::Search(const Matrix3<double>& world_from_front, double height_m,
+                               FitTarget& coarse_target, FitTarget& fine_target) {
+  std::vector<PoseHypothesis> hypotheses =
+      StartHypotheses(world_from_front, settings_.headings, Eigen::VectorXd());
+  for (PoseHypothesis& h : hypotheses) h.state.theta = StartShape(h, height_m);
+  const std::vector<SearchLevel> levels{
+      {coarse_.get(), &coarse_target, {6, 0.5, 0.25, 0.5, false}, 20},
+      {coarse_.get(), &coarse_target, {10, 0.3, 0.12, 0.2, true}, 6},
+      {fine_.get(), &fine_target, {15, 0.15, 0.05, 0.05, true}, 2}};
+  FitPriors priors;
+  priors.angle_deviation_deg = settings_.angle_deviation_deg;
+  const SearchOutcome found =
+      SearchPose(hypotheses, levels, priors, {settings_.near_m, settings_.far_m});
+  Registration registration{found.best.state, found.best.distance, found.margin,
+                            fmt::format("{}, heading {:.0f} degrees", found.best.start->pose,
+                                        found.best.start->heading_deg),
+                            ""};
+  Judge(registration);
+  return registration;
+}
+
+Registration Registrar::Find(const TriangleMesh& surface) {
+  const double height_m = HeightOf(surface.vertices);
+  if (height_m < kLowest_m || height_m > kHighest_m) {
+    Registration none;
+    none.problem = fmt::format(
+        "no person: the surface is {:.4g} m high, expected {:g} to {:g} m. Is it y up, in metres?",
+        height_m, kLowest_m, kHighest_m);
+    return none;
+  }
+  const OrientedPoints points = SampleSurface(surface, settings_.surface_points);
+  SurfaceTarget coarse_target(points, kCoarseSeekers, settings_.clothing);
+  SurfaceTarget fine_target(points, kFineSeekers, settings_.clothing);
+  return Search(Matrix3<double>::Identity(), height_m, coarse_target, fine_target);
+}
+
+Registration Registrar::Find(const DepthImage& depth, const PinholeCamera& camera) {
+  DepthTarget coarse_target(depth, camera, kCoarseFrame);
+  DepthTarget fine_target(depth, camera, kFineFrame);
+  if (coarse_target.is_empty() || fine_target.is_empty()) {
+    Registration none;
+    none.problem = "no person: the frame holds too few measurements";
+    return none;
+  }
+  const Matrix3<double> facing_camera = Vector3d(1.0, -1.0, -1.0).asDiagonal();
+  return Search(facing_camera, fine_target.height_m(), coarse_target, fine_target);
+}
+
+Registration Registrar::Follow(const TriangleMesh& surface, const BodyState& near) {
+  SurfaceTarget target(SampleSurface(surface, settings_.surface_points), kFineSeekers,
+                       settings_.clothing);
+  FitPriors priors;
+  priors.angle_deviation_deg = settings_.angle_deviation_deg;
+  priors.angles_deg = near.angles_deg;
+  priors.theta = near.theta;
+  Registration registration;
+  registration.state = coarse_->Run(target, near, {6, 0.3, 0.1, 0.2, false}, priors);
+  registration.state = fine_->Run(target, registration.state, {6, 0.1, 0.05, 0.05, false}, priors);
+  registration.distance =
+      fine_->Measure(target, registration.state, {settings_.near_m, settings_.far_m});
+  registration.start = "the frame before";
+  Judge(registration);
+  return registration;
+}
+
+void Registrar::Judge(Registration& registration) const {
+  const MutualDistance& d = registration.distance;
+  if (d.target_explained >= settings_.least_explained &&
+      d.body_explained >= settings_.least_explained && d.mean_m() <= settings_.most_distance_m) {
+    return;
+  }
+  registration.problem = fmt::format(
+      "no person: the body explains {:.0f} % of the surface, and the surface {:.0f} % of the body "
+      "(expected at least {:.0f} % within {:g} m); mean distance {:.1f} mm (expected at most "
+      "{:.1f} mm). Is it one whole person, y up, in metres?",
+      100.0 * d.target_explained, 100.0 * d.body_explained, 100.0 * settings_.least_explained,
+      settings_.near_m, 1e3 * d.mean_m(), 1e3 * settings_.most_distance_m);
+}
+
+BodyModel Registrar::Body(const Eigen::VectorXd& theta) const {
+  const ShapedBody whole = WithScale(space_, settings_.components, settings_.scale_deviation);
+  BodyModel body = space_.reference;
+  body.rest.vertices = ShapedSurface(whole, theta);
+  body.skeleton = ShapedSkeleton(whole, theta);
+  const Vector3f lift(0.0f, -BoundingBox(body.rest.vertices).min().y(), 0.0f);
+  for (Vector3f& v : body.rest.vertices) v += lift;
+  for (int b = 0; b < kBoneCount; ++b) {
+    body.skeleton.joints[b] += lift.cast<double>();
+    body.skeleton.tips[b] += lift.cast<double>();
+  }
+  const Sex sex = known_.sex.value_or(Sex::kMale);
+  body.attributes = {HeightOf(body.rest.vertices),
+                     EnclosedVolume(body.rest) * space_.density_kg_m3[SexIndex(sex)], sex};
+  return body;
+}
+
+BoneTransforms Registrar::SurfaceFromSubject(const BodyState& state) const {
+  const Skeleton subject = Body(state.theta).skeleton;
+  BoneTransforms transforms = WorldFromRest(fine_body_, state);
+  const Skeleton centred = ShapedSkeleton(fine_body_, state.theta);
+  const Vector3d centred_from_subject = centred.joints[0] - subject.joints[0];
+  for (Rigidd& t : transforms) t.translation += t.rotation * centred_from_subject;
+  return transforms;
+}
+
+}  // namespace vitruvia

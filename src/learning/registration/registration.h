@@ -1,0 +1,77 @@
+// Registration: the body of a shape space put onto a surface of which neither pose nor size nor
+// direction is known.
+//
+// Start hypotheses (headings × poses of body/start_poses.h) are fitted coarse to fine
+// (fitting/pose_search.h); pose, place, the space's first coefficients and one uniform scale are
+// found together. The result says how sure it is, and what is no person is refused with numbers.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "config/settings.h"
+#include "fitting/pose_search.h"
+#include "fitting/surface_target.h"
+#include "geometry/camera.h"
+#include "geometry/image.h"
+#include "learning/shape/sized_body.h"
+
+namespace vitruvia {
+
+struct RegistrationSettings {
+  int components = 10;
+  double scale_deviation = 0.15;
+  int headings = 8;
+  Clothing clothing = Clothing::kLoose;
+  int coarse_vertices = 500, fine_vertices = 2000;
+  int surface_points = 12000;
+  double angle_deviation_deg = 40.0;
+  double near_m = 0.05, far_m = 0.15;
+  double least_explained = 0.85;
+  double most_distance_m = 0.04;
+
+  void Describe(Fields& fields);
+};
+
+struct Registration {
+  BodyState state;          // of the registrar's body, in the surface's frame
+  MutualDistance distance;  // of the fine body
+  double margin = 0.0;      // see SearchOutcome
+  std::string start;        // the hypothesis that won
+  std::string problem;      // "" for a person; otherwise why it is none, with numbers
+};
+
+class Registrar {
+ public:
+  // ConfigError if the space has fewer components than the settings ask for.
+  Registrar(const ShapeSpace& space, const KnownAttributes& known,
+            const RegistrationSettings& settings);
+  ~Registrar();
+
+  // Meshes need not be closed nor of one piece; y is up, metres. Vertices in the mesh's frame.
+  Registration Find(const TriangleMesh& surface);
+  // In the camera's frame: y down. The frame's measurements are the person's.
+  Registration Find(const DepthImage& depth, const PinholeCamera& camera);
+  // From a state that is near, for the next surface of a sequence: the shape stays.
+  Registration Follow(const TriangleMesh& surface, const BodyState& near);
+
+  // The body of a shape in its rest pose, subject frame, on the space's own mesh.
+  BodyModel Body(const Eigen::VectorXd& theta) const;
+  // The motions of that body's bones, from the subject frame to the surface's.
+  BoneTransforms SurfaceFromSubject(const BodyState& state) const;
+
+ private:
+  Registration Search(const Matrix3<double>& world_from_front, double height_m,
+                      FitTarget& coarse_target, FitTarget& fine_target);
+  Eigen::VectorXd StartShape(const PoseHypothesis& hypothesis, double height_m) const;
+  void Judge(Registration& registration) const;
+
+  const ShapeSpace& space_;
+  RegistrationSettings settings_;
+  KnownAttributes known_;
+  SizedShape expected_;  // of what is known
+  ShapedBody fine_body_, coarse_body_;
+  std::unique_ptr<PoseFit> fine_, coarse_;
+};
+
+}  // namespace vitruvia

@@ -1,0 +1,60 @@
+// Finds the subject in a frame, in any pose and facing anywhere, for a tracker to start from.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "config/settings.h"
+#include "fitting/depth_target.h"
+#include "fitting/pose_search.h"
+#include "math/rigid.h"
+#include "tracking/tracker.h"
+
+namespace vitruvia {
+
+// How a tracker gets its first pose.
+enum class Start {
+  kRestPose,  // papers: the subject stands in the rest pose and faces the camera
+  kSearch,    // ours: any pose of a library, at any heading
+};
+// Describes a method's field of that type.
+void DescribeStart(Fields& fields, Start& start);
+
+struct StartSearchSettings {
+  int headings = 8;
+  int coarse_vertices = 300, fine_vertices = 1200;
+  double angle_deviation_deg = 40.0;
+  double near_m = 0.06, far_m = 0.2;
+  double least_explained = 0.8;
+
+  void Describe(Fields& fields);
+};
+
+struct FoundStart {
+  bool found = false;
+  BoneTransforms camera_from_rest;  // of the best hypothesis, also where it is not trusted
+  MutualDistance distance;
+  double margin = 0.0;  // see SearchOutcome
+  std::string message;  // how sure it is
+};
+
+class StartSearch {
+ public:
+  StartSearch(const Subject& subject, const PinholeCamera& camera, double max_depth_m,
+              const StartSearchSettings& settings);
+
+  // The frame's measurements are the person's.
+  FoundStart Find(const DepthImage& depth);
+
+ private:
+  StartSearchSettings settings_;
+  PinholeCamera camera_;
+  double max_depth_m_;
+  ShapedBody fine_body_, coarse_body_;
+  PoseFit fine_{fine_body_}, coarse_{coarse_body_};
+};
+
+// The message of the first frame that is tracked: how its start was found, and how it ended.
+std::string WithStart(const std::string& start, const std::string& ending);
+
+}  // namespace vitruvia

@@ -1,0 +1,142 @@
+#include "learning/registration/registration.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "geometry/zbuffer.h"
+#include "math/angles.h"
+#include "math/rigid.h"
+#include "math/rotation.h"
+#include "synth/population/make_database.h"
+
+namespace vitruvia {
+namespace {
+
+using testing::HasSubstr;
+
+const ShapeSpace& SmallSpace() {
+  static const ShapeSpace space = [] {
+    DatabaseSettings settings;
+    settings.population.subjects = 24;
+    settings.mesh.subdivisions = 2;
+    settings.subjects_with_poses = 0;
+    const BodyDatabase database = MakeDatabase(settings);
+    std::vector<int> all(database.subjects.size());
+    for (std::size_t s = 0; s < all.size(); ++s) all[s] = static_cast<int>(s);
+    return LearnShapeSpace(database, all, {.components = 5});
+  }();
+  return space;
+}
+
+RegistrationSettings QuickSettings() {
+  RegistrationSettings settings;
+  settings.components = 5;
+  settings.headings = 4;
+  settings.clothing = Clothing::kNone;
+  settings.coarse_vertices = 300;
+  settings.fine_vertices = 1000;
+  settings.surface_points = 6000;
+  return settings;
+}
+
+// Somebody of the space, the left forearm raised, a step forward, turned to the left by 80 degrees.
+struct Posed {
+  BodyModel body;
+  std::vector<Vector3d> joints;
+  TriangleMesh surface;
+};
+
+Posed SomebodyStriding(const Matrix3<double>& world_from_front, const Vector3d& pelvis) {
+  Posed posed;
+  Eigen::VectorXd theta(5);
+  theta << 0.8, -0.6, 0.3, 0.0, 0.2;
+  posed.body = PlacedBody(SmallSpace(), theta, Sex::kMale);
+  AnatomicalPose angles;
+  angles.midline_deg[kSpineFlexion] = 6.0;
+  angles.sides_deg[kLeft] = {15, 18, 0, 80, 10, 0, 0, 25, 4, 0, 15, 0, 0};
+  angles.sides_deg[kRight] = {-10, 14, 0, 12, 10, 0, 0, -12, 4, 0, 20, 0, 0};
+  JointPose pose = JointPose::Rest(posed.body.skeleton);
+  SetRotations(angles, pose);
+  pose.local_rotations[0] = world_from_front * ExpSo3<double>({0.0, 80.0 * kRadiansPerDegree, 0.0});
+  pose.pelvis_position = pelvis;
+  const BoneTransforms bones = ForwardKinematics(posed.body.skeleton, pose);
+  posed.joints = PosedJoints(posed.body.skeleton, bones);
+  posed.surface.triangles = posed.body.rest.triangles;
+  SkinLinear(posed.body.rest.vertices, posed.body.weights, bones, posed.surface.vertices);
+  return posed;
+}
+
+double MeanJointError(const Registrar& registrar, const Registration& found, const Posed& truth) {
+  const std::vector<Vector3d> joints = PosedJoints(registrar.Body(found.state.theta).skeleton,
+                                                   registrar.SurfaceFromSubject(found.state));
+  double sum = 0.0;
+  for (std::size_t j = 0; j < joints.size(); ++j) sum += (joints[j] - truth.joints[j]).norm();
+  return sum / static_cast<double>(joints.size());
+}
+
+TEST(Registration, FindsPoseAndShapeOfSomebodyOfTheSpace) {
+  const Posed truth = SomebodyStriding(Matrix3<double>::Identity(), {0.4, 1.0, 0.2});
+  Registrar registrar(SmallSpace(), {}, QuickSettings());
+  const Registration found = registrar.Find(truth.surface);
+  EXPECT_EQ(found.problem, "");
+  EXPECT_LT(MeanJointError(registrar, found, truth), 0.012);
+  EXPECT_LT(found.distance.mean_m(), 0.005);
+  EXPECT_GT(found.margin, 0.5);
+  EXPECT_NEAR(registrar.Body(found.state.theta).attributes.height_m, truth.body.attributes.height_m,
+              0.02);
+}
+
+TEST(Registration, FollowsToTheNextSurface) {
+  const Posed truth = SomebodyStriding(Matrix3<double>::Identity(), {0.4, 1.0, 0.2});
+  Registrar registrar(SmallSpace(), {}, QuickSettings());
+  const Registration first = registrar.Find(truth.surface);
+  Posed moved = truth;
+  for (Vector3f& v : moved.surface.vertices) v += Vector3f(0.06f, 0.0f, -0.05f);
+  for (Vector3d& j : moved.joints) j += Vector3d(0.06, 0.0, -0.05);
+  const Registration next = registrar.Follow(moved.surface, first.state);
+  EXPECT_EQ(next.state.theta, first.state.theta);
+  EXPECT_LT(MeanJointError(registrar, next, moved), 0.012);
+}
+
+TEST(Registration, FindsAPersonInADepthFrame) {
+  const Posed truth = SomebodyStriding(Vector3d(1.0, -1.0, -1.0).asDiagonal(), {0.1, 0.1, 2.6});
+  const PinholeCamera camera;
+  ZBuffer zbuffer(camera);
+  Registrar registrar(SmallSpace(), {truth.body.attributes.height_m, {}, {}}, QuickSettings());
+  const Registration found =
+      registrar.Find(zbuffer.Render(truth.surface.vertices, truth.surface.triangles), camera);
+  EXPECT_EQ(found.problem, "");
+  EXPECT_LT(MeanJointError(registrar, found, truth), 0.04);
+}
+
+TEST(Registration, RefusesWhatIsNoPerson) {
+  Registrar registrar(SmallSpace(), {}, QuickSettings());
+  const Posed person = SomebodyStriding(Matrix3<double>::Identity(), {0.0, 1.0, 0.0});
+  TriangleMesh two = person.surface;
+  const auto count = static_cast<std::int32_t>(two.vertices.size());
+  for (const Vector3f& v : person.surface.vertices)
+    two.vertices.push_back(v + Vector3f(1.2f, 0.0f, 0.0f));
+  for (const Triangle& t : person.surface.triangles)
+    two.triangles.push_back({t[0] + count, t[1] + count, t[2] + count});
+  EXPECT_THAT(registrar.Find(two).problem, HasSubstr("no person: the body explains"));
+
+  TriangleMesh without_legs = person.surface;
+  std::erase_if(without_legs.triangles,
+                [&](const Triangle& t) { return person.surface.vertices[t[0]].y() < 0.9f; });
+  without_legs.vertices = person.surface.vertices;
+  EXPECT_THAT(registrar.Find(without_legs).problem, HasSubstr("no person"));
+
+  TriangleMesh in_millimetres = person.surface;
+  for (Vector3f& v : in_millimetres.vertices) v *= 1000.0f;
+  EXPECT_THAT(registrar.Find(in_millimetres).problem, HasSubstr("in metres?"));
+}
+
+TEST(Registration, RefusesAnEmptyFrame) {
+  const PinholeCamera camera;
+  Registrar registrar(SmallSpace(), {}, QuickSettings());
+  EXPECT_THAT(registrar.Find(DepthImage(camera.width, camera.height), camera).problem,
+              HasSubstr("too few measurements"));
+}
+
+}  // namespace
+}  // namespace vitruvia
