@@ -18,7 +18,7 @@ struct Range {
 
 // The range of share · angle.
 Range Scaled(const Range& range, double share) {
-  const auto [low, high] = std::minmax(share * range.min_deg, share * range.max_deg);
+  const auto [low, high] = std::minmax({share * range.min_deg, share * range.max_deg});
   return {low, high};
 }
 

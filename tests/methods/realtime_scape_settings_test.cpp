@@ -106,6 +106,7 @@ struct Change {
 // One change for each setting. It has to change the result.
 const std::map<std::string, Change>& Changes() {
   const Json cg = At("solver.kind", "cg");
+  const Json free = At("free_space_weight", 1.0);
   static const std::map<std::string, Change> changes = {
       {"cloud.stride", {3}},
       {"cloud.max_depth_m", {2.8}},
@@ -124,6 +125,13 @@ const std::map<std::string, Change>& Changes() {
       {"fit.surface_stride", {2}},
       {"fit.kernel", {"tukey"}},
       {"fit.kernel_scale_m", {0.002}},
+      {"fit.noise.axial_base_m", {0.01}},
+      {"fit.noise.axial_growth_per_m", {0.01}},
+      {"fit.noise.axial_near_m", {1.0, At("fit.noise.axial_growth_per_m", 0.01)}},
+      {"fit.noise.lateral_rad", {0.01}},
+      {"fit.noise.model_deviation_m", {0.02, At("fit.noise.axial_base_m", 0.01)}},
+      {"fit.free_space.margin_px", {64, free}},
+      {"fit.free_space.reach_m", {0.02, free}},
       {"search.candidates", {"visible"}},
       {"search.seen_share", {0.3}},
       {"search.well_explained_share", {0.3}},
@@ -137,6 +145,9 @@ const std::map<std::string, Change>& Changes() {
       {"joint_weight", {1.0}},
       {"inertia_weight", {1.0}},
       {"axis_weight", {10.0}},
+      {"free_space_weight", {1.0}},
+      {"limit_slack_deg", {0.0, At("limit_weight", 10.0)}},
+      {"prior_weight", {0.1}},
       {"length_unit_m", {0.1}},
       {"rotation_update", {"linear_orthonormal"}},
       {"stopping.rotation_step_deg", {0.01}},
@@ -153,6 +164,7 @@ const std::map<std::string, Change>& Changes() {
       {"placement.trim", {0.5}},
       {"placement.initial_offset_m", {{0.1, 0.0, 0.0}}},
       {"placement.initial_rotation_deg", {20.0}},
+      {"recovery.doubt_threshold", {0.999, {}, true}},
       {"recovery.patience", {1, {}, true}},
       {"recovery.pause", {1, {}, true}},
       {"recovery.agreement_threshold", {0.1, {}, true}},
@@ -169,7 +181,15 @@ const std::map<std::string, Change>& Changes() {
 const std::map<std::string, std::string>& WithoutEffect() {
   static const std::map<std::string, std::string> reasons = {
       {"fit.rasterizer", "both render the same depth of a closed mesh"},
-      {"fit.association", "a kd-tree and a search over all points find the same nearest point"}};
+      {"fit.association", "a kd-tree and a search over all points find the same nearest point"},
+      {"limit_weight", "no joint exceeds its range by more than the slack"},
+      {"limbs.min_unexplained_m2", "the arm stays within reach of the pairs: limb_finder_test"},
+      {"limbs.margin", "no limb is searched"},
+      {"limbs.num_targets", "no limb is searched"},
+      {"limbs.num_swivels", "no limb is searched"},
+      {"limbs.num_refined", "no limb is searched"},
+      {"recovery.least_usual", "the body agrees fully before it is lost: loss_detector_test"},
+      {"recovery.part_gap_m", "the frames show one thing at a time"}};
   return reasons;
 }
 
