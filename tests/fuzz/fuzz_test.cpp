@@ -1,9 +1,15 @@
 // A few hundred mutants over all formats; `make fuzz` reads ten thousand.
+#include <ostream>
+
 #include <gtest/gtest.h>
 
 #include "formats.h"
 
 namespace vitruvia {
+
+// For the names of tests.
+inline void PrintTo(const MutatedFormat& format, std::ostream* out) { *out << format.name; }
+
 namespace {
 
 constexpr int kMutants = 40;  // of each format

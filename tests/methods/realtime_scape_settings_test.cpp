@@ -107,6 +107,7 @@ struct Change {
 const std::map<std::string, Change>& Changes() {
   const Json cg = At("solver.kind", "cg");
   const Json free = At("free_space_weight", 1.0);
+  const Json search = At("start", "search");
   static const std::map<std::string, Change> changes = {
       {"cloud.stride", {3}},
       {"cloud.max_depth_m", {2.8}},
@@ -160,6 +161,10 @@ const std::map<std::string, Change>& Changes() {
       {"solver.precision", {"float"}},
       {"solver.damping", {10.0}},
       {"solver.watch_energy", {true}},
+      {"start", {"search"}},
+      {"start_search.coarse_vertices", {100, search}},
+      {"start_search.fine_vertices", {300, search}},
+      {"start_search.angle_deviation_deg", {10.0, search}},
       {"placement.iterations", {0}},
       {"placement.trim", {0.5}},
       {"placement.initial_offset_m", {{0.1, 0.0, 0.0}}},
@@ -181,6 +186,10 @@ const std::map<std::string, Change>& Changes() {
 const std::map<std::string, std::string>& WithoutEffect() {
   static const std::map<std::string, std::string> reasons = {
       {"fit.rasterizer", "both render the same depth of a closed mesh"},
+      {"start_search.headings", "the body looks along a heading that every number of them has"},
+      {"start_search.near_m", "decides only whether the pose is trusted, and this one is"},
+      {"start_search.far_m", "decides only whether the pose is trusted, and this one is"},
+      {"start_search.least_explained", "decides only whether the pose is trusted, and this one is"},
       {"fit.association", "a kd-tree and a search over all points find the same nearest point"},
       {"limit_weight", "no joint exceeds its range by more than the slack"},
       {"limbs.min_unexplained_m2", "the arm stays within reach of the pairs: limb_finder_test"},
