@@ -33,12 +33,10 @@
 #include "config/json_settings.h"
 #include "config/settings_schema.h"
 #include "config/settings_text.h"
+#include "core/absent.h"
 #include "core/files.h"
 
 namespace vitruvia {
-
-// How an absent number is held in memory.
-inline constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 
 // A struct of stored data that is a file of its own has `static constexpr StoredFormat kFormat`,
 // and, if it reads older versions that differ, `static void Upgrade(Json& file, int version)`.

@@ -6,8 +6,8 @@
 namespace vitruvia {
 namespace {
 
-constexpr float kLeastCosine = 0.2f;    // between the normals of a pair
-constexpr float kInsideWeight = 0.25f;  // of a clothed body's vertex inside of the surface
+constexpr float kLeastPairCosine = 0.2f;  // between the normals of a pair
+constexpr float kInsideWeight = 0.25f;    // of a clothed body's vertex inside of the surface
 
 }  // namespace
 
@@ -32,7 +32,7 @@ void SurfaceTarget::FindPairs(const PosedBody& body, double cutoff_m, std::vecto
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     if (neighbors_[v].index < 0) continue;
     const auto s = static_cast<std::size_t>(neighbors_[v].index);
-    if (points_.normals[s].dot(body.normals()[v]) < kLeastCosine) continue;
+    if (points_.normals[s].dot(body.normals()[v]) < kLeastPairCosine) continue;
     pairs.push_back({static_cast<int>(v), points_.points[s], points_.normals[s],
                      body.AreaShare(static_cast<int>(v)) *
                          weight_of(vertices[v], points_.points[s], points_.normals[s])});
@@ -42,7 +42,7 @@ void SurfaceTarget::FindPairs(const PosedBody& body, double cutoff_m, std::vecto
   for (std::size_t q = 0; q < seekers_.points.size(); ++q) {
     if (neighbors_[q].index < 0) continue;
     const auto v = static_cast<std::size_t>(neighbors_[q].index);
-    if (seekers_.normals[q].dot(body.normals()[v]) < kLeastCosine) continue;
+    if (seekers_.normals[q].dot(body.normals()[v]) < kLeastPairCosine) continue;
     pairs.push_back({neighbors_[q].index, seekers_.points[q], body.normals()[v],
                      weight_of(vertices[v], seekers_.points[q], seekers_.normals[q])});
   }
@@ -57,7 +57,7 @@ MutualDistance SurfaceTarget::Measure(const PosedBody& body, const NearFar& limi
                             const std::vector<Vector3f>& normals) {
     if (nearest < 0) return limits.far_m;
     const auto i = static_cast<std::size_t>(nearest);
-    if (normals[i].dot(normal) <= kLeastCosine) return limits.far_m;
+    if (normals[i].dot(normal) <= kLeastPairCosine) return limits.far_m;
     return SurfaceDistance(point - points[i], normals[i], body.mean_edge_m());
   };
   DistanceSum from_body, from_target;

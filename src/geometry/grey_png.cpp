@@ -14,9 +14,9 @@ namespace {
 constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
 constexpr std::string_view kEnd("\0\0\0\0IEND\xae\x42\x60\x82", 12);
 
-// Empty if the file is damaged. libpng holds all check sums against the data and says on standard
-// error what is wrong.
-cv::Mat Decoded(std::string& bytes, const std::string& where) {
+}  // namespace
+
+cv::Mat DecodeImage(std::string& bytes, const std::string& where) {
   const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data());
   try {
     return cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
@@ -25,13 +25,11 @@ cv::Mat Decoded(std::string& bytes, const std::string& where) {
   }
 }
 
-}  // namespace
-
 cv::Mat ReadGreyPng(const std::filesystem::path& file, int bits, int width, int height) {
   const std::string where = file.string();
   std::string bytes = ReadWholeFile(file);
   if (!bytes.starts_with(kSignature)) throw DataError(fmt::format("{}: is not a PNG file", where));
-  cv::Mat raw = Decoded(bytes, where);
+  cv::Mat raw = DecodeImage(bytes, where);
   if (raw.empty()) {
     throw DataError(bytes.ends_with(kEnd)
                         ? fmt::format("{}: damaged: its pixels cannot be decoded", where)

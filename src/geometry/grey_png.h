@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include <opencv2/core.hpp>
 
@@ -13,5 +14,10 @@ namespace vitruvia {
 cv::Mat ReadGreyPng(const std::filesystem::path& file, int bits, int width, int height);
 
 void WriteGreyPng(const std::filesystem::path& file, const cv::Mat& raw);
+
+// Any image that OpenCV reads, as it is stored. Empty if it is damaged: libpng holds all check sums
+// against the data and says on standard error what is wrong. DataError naming `where` if OpenCV
+// gives a reason.
+cv::Mat DecodeImage(std::string& bytes, const std::string& where);
 
 }  // namespace vitruvia

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "geometry/grey_png.h"
 
 namespace vitruvia {
 namespace {
@@ -27,16 +28,6 @@ std::string EndingOf(const std::filesystem::path& file) {
 void AllowOpenExr() {
   static const int done = setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 0);
   static_cast<void>(done);
-}
-
-cv::Mat Decoded(std::string& bytes, const std::string& where) {
-  AllowOpenExr();
-  const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data());
-  try {
-    return cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception& error) {
-    throw DataError(fmt::format("{}: cannot be decoded: {}", where, error.err));
-  }
 }
 
 int TypeOf(StoredNumbers numbers) {
@@ -60,7 +51,8 @@ bool IsImageFile(const std::filesystem::path& file) {
 Image<float> ReadImageFile(const std::filesystem::path& file) {
   const std::string where = file.string();
   std::string bytes = ReadWholeFile(file);
-  const cv::Mat raw = bytes.empty() ? cv::Mat() : Decoded(bytes, where);
+  AllowOpenExr();
+  const cv::Mat raw = bytes.empty() ? cv::Mat() : DecodeImage(bytes, where);
   if (raw.empty()) {
     throw DataError(fmt::format(
         "{}: expected a PNG, PGM, TIFF or OpenEXR image, but its {} bytes cannot be decoded; is it "

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // The cloud's points must be seen at their pixels up to this, root mean square.
-constexpr double kLargestResidual_px = 1.0;
+constexpr double kLargestFitResidual_px = 1.0;
 
 void RequireSize(const fs::path& file, int width, int height, const PinholeCamera& camera) {
   if (width == camera.width && height == camera.height) return;
@@ -46,11 +46,11 @@ void RequireRays(const fs::path& file, const OrganisedCloud& cloud, const Pinhol
   }
   if (!columns.is_determined() || !rows.is_determined()) return;
   const double residual_px = std::sqrt(squared_px / static_cast<double>(columns.count()));
-  if (residual_px <= kLargestResidual_px) return;
+  if (residual_px <= kLargestFitResidual_px) return;
   throw DataError(fmt::format(
       "{}: the camera sees its points {:.3g} px from their pixels (root mean square), expected at "
       "most {} px; the points themselves say fx {:.6g}, fy {:.6g}, cx {:.6g}, cy {:.6g}",
-      file.string(), residual_px, kLargestResidual_px, columns.focal(), rows.focal(),
+      file.string(), residual_px, kLargestFitResidual_px, columns.focal(), rows.focal(),
       columns.center(), rows.center()));
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "core/absent.h"
 #include "core/error.h"
 
 namespace vitruvia {
@@ -37,6 +38,14 @@ double Quantile(std::vector<double> values, double share) {
   const auto below = static_cast<std::size_t>(std::floor(place));
   const std::size_t above = std::min(below + 1, values.size() - 1);
   return values[below] + (place - std::floor(place)) * (values[above] - values[below]);
+}
+
+double MeanOrAbsent(std::span<const double> values) {
+  return values.empty() ? kAbsent : Mean(values);
+}
+
+double MaximumOrAbsent(std::span<const double> values) {
+  return values.empty() ? kAbsent : Maximum(values);
 }
 
 double Mean(std::span<const double> values) {

@@ -4,14 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "core/absent.h"
 #include "geometry/point_cloud.h"
 #include "metrics/reconstruction_error.h"
 #include "metrics/vertex_error.h"
 
 namespace vitruvia {
 namespace {
-
-constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 
 double Share(long part, long whole) {
   return whole == 0 ? kAbsent : static_cast<double>(part) / static_cast<double>(whole);

@@ -7,19 +7,6 @@
 #include "math/statistics.h"
 
 namespace vitruvia {
-namespace {
-
-constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
-
-double MeanOrAbsent(const std::vector<double>& values) {
-  return values.empty() ? kAbsent : Mean(values);
-}
-double MaximumOrAbsent(const std::vector<double>& values) {
-  return values.empty() ? kAbsent : Maximum(values);
-}
-
-}  // namespace
-
 RestCorrespondence::RestCorrespondence(const TriangleMesh& estimate_rest,
                                        const TriangleMesh& true_rest)
     : points_(ClosestSurfacePoints(estimate_rest.vertices, true_rest)),

@@ -17,12 +17,7 @@
 namespace vitruvia {
 namespace {
 
-constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 constexpr int kMostPoints = 3000;  // of a frame, held against the surface
-
-double MeanOrAbsent(const std::vector<double>& values) {
-  return values.empty() ? kAbsent : Mean(values);
-}
 
 void Append(const std::vector<double>& distances, std::vector<double>& all) {
   all.insert(all.end(), distances.begin(), distances.end());

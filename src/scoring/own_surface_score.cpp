@@ -1,7 +1,5 @@
 #include "scoring/own_surface_score.h"
 
-#include <limits>
-
 #include "geometry/zbuffer.h"
 #include "math/statistics.h"
 #include "metrics/reconstruction_error.h"
@@ -10,10 +8,6 @@
 
 namespace vitruvia {
 namespace {
-
-double MeanOrAbsent(const std::vector<double>& values) {
-  return values.empty() ? std::numeric_limits<double>::quiet_NaN() : Mean(values);
-}
 
 // Distances of one surface's vertices to the other surface.
 struct OneWay {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/absent.h"
 #include "core/error.h"
 #include "math/statistics.h"
 #include "scoring/joint_score.h"
@@ -33,8 +33,6 @@ bool HoldsAgainstObservation(const ScoreSettings& settings, const SequenceInfo& 
   }
   return false;
 }
-
-constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
 
 void RecordOutcomes(const EstimateReader& estimate, RunRecord& record) {
   const std::size_t count = estimate.frames().size();
