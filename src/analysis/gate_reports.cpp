@@ -16,7 +16,7 @@ namespace {
 std::string Digits(double value) { return fmt::format("{:.6g}", value); }
 
 // Of speed with the interval of the ratio, which decides.
-std::string ChangeInPercent(const Finding& finding) {
+std::string ChangeInPercent(const GateFinding& finding) {
   const auto percent = [](double ratio) { return fmt::format("{:+.1f} %", 1e2 * (ratio - 1.0)); };
   if (finding.kind == NumberKind::kSpeed) {
     return fmt::format("{} ({} … {})", percent(finding.is / finding.was),
@@ -31,7 +31,7 @@ struct PrintedFinding {
   std::string was, is, limit, unit;
 };
 
-PrintedFinding PrintedNumbers(const Finding& finding) {
+PrintedFinding PrintedNumbers(const GateFinding& finding) {
   double scale = 1.0;
   std::string unit = " ms";
   if (finding.kind == NumberKind::kAccuracy) {
@@ -61,7 +61,7 @@ std::string JunitCase(const std::string& run, const std::string& kind, const cha
 
 std::string RegressionLines(const Judgement& judgement, const std::string& run, NumberKind kind) {
   std::string lines;
-  for (const Finding* f : judgement.Regressions(kind)) {
+  for (const GateFinding* f : judgement.Regressions(kind)) {
     if (f->run != run) continue;
     const PrintedFinding numbers = PrintedNumbers(*f);
     lines += fmt::format("{}{}: was {}, is {}, limit {}{}", lines.empty() ? "" : "\n", f->metric,
@@ -72,13 +72,14 @@ std::string RegressionLines(const Judgement& judgement, const std::string& run, 
   return lines;
 }
 
-std::string FindingTable(const std::string& title, const std::vector<const Finding*>& findings) {
+std::string FindingTable(const std::string& title,
+                         const std::vector<const GateFinding*>& findings) {
   if (findings.empty()) return "";
   std::string text = fmt::format(
       "## {}\n\n| run | metric | was | is | change | limit | first commit that could be to blame "
       "|\n|---|---|---|---|---|---|---|\n",
       title);
-  for (const Finding* f : findings) {
+  for (const GateFinding* f : findings) {
     const PrintedFinding numbers = PrintedNumbers(*f);
     text += fmt::format("| `{}` | {} | {}{} | {} | {} | {} | {} |\n", f->run, f->metric,
                         numbers.was, numbers.unit, numbers.is, ChangeInPercent(*f), numbers.limit,
@@ -106,9 +107,9 @@ std::string SpeedText(const GateOccasion& occasion, const Judgement& judgement) 
       occasion.reference.commit, 1e2 * occasion.tolerances.confidence);
 }
 
-std::string Runs(const std::vector<const Finding*>& findings) {
+std::string Runs(const std::vector<const GateFinding*>& findings) {
   std::set<std::string> runs;
-  for (const Finding* finding : findings) runs.insert(finding->run);
+  for (const GateFinding* finding : findings) runs.insert(finding->run);
   return fmt::format("{} number{} of {} run{}", findings.size(), findings.size() == 1 ? "" : "s",
                      runs.size(), runs.size() == 1 ? "" : "s");
 }
@@ -207,7 +208,7 @@ RegressionFile MakeRegressionFile(const GateOccasion& occasion, const Judgement&
                       judgement.unknown,
                       judgement.unmeasured,
                       occasion.measured.runs};
-  for (const Finding& finding : judgement.findings) {
+  for (const GateFinding& finding : judgement.findings) {
     file.findings.push_back({finding});
     if (finding.change != Change::kRegressed) file.findings.back().blame = {};
   }

@@ -24,7 +24,7 @@ struct RegressionFile {
     std::string commit, date, cpu;
     void Describe(Fields& fields);
   };
-  struct FindingEntry : Finding {
+  struct FindingEntry : GateFinding {
     void Describe(Fields& fields);
   };
 

@@ -36,7 +36,7 @@ Change ChangeOf(double is, const Limits& limits) {
 }
 
 // The value of a finding on an earlier occasion; NaN if it was not measured then.
-double ValueThen(const HistoryEntry& entry, const Finding& finding) {
+double ValueThen(const HistoryEntry& entry, const GateFinding& finding) {
   for (const GatedRun& run : entry.runs) {
     if (run.name() != finding.run) continue;
     const auto found = run.accuracy.find(finding.metric);
@@ -46,7 +46,7 @@ double ValueThen(const HistoryEntry& entry, const Finding& finding) {
 }
 
 // Back from the newest entry as long as the number was bad there too.
-Blame BlameFor(const Finding& finding, const Limits& limits,
+Blame BlameFor(const GateFinding& finding, const Limits& limits,
                const std::vector<HistoryEntry>& history, const std::string& commit,
                const std::string& baseline_commit) {
   Blame blame{baseline_commit, commit};
@@ -113,7 +113,7 @@ class Judging {
       const auto found = is.times_ms.find(name);
       if (found == is.times_ms.end() || !IsGated(name, was, tolerances_)) continue;
       const double tolerance = name == kWholeFrame ? tolerances_.frame_time : tolerances_.step_time;
-      Finding finding;
+      GateFinding finding;
       finding.run = is.name();
       finding.kind = NumberKind::kSpeed;
       finding.metric = name;
@@ -136,7 +136,7 @@ class Judging {
       return;
     }
     const Limits limits = AccuracyLimits(metric, was, tolerances_.accuracy);
-    Finding finding;
+    GateFinding finding;
     finding.run = is.name();
     finding.metric = metric;
     finding.was = was;
@@ -224,17 +224,17 @@ const char* Name(Change change) {
   return "";
 }
 
-std::vector<const Finding*> Judgement::OfChange(Change change) const {
-  std::vector<const Finding*> chosen;
-  for (const Finding& finding : findings) {
+std::vector<const GateFinding*> Judgement::OfChange(Change change) const {
+  std::vector<const GateFinding*> chosen;
+  for (const GateFinding& finding : findings) {
     if (finding.change == change) chosen.push_back(&finding);
   }
   return chosen;
 }
 
-std::vector<const Finding*> Judgement::Regressions(NumberKind kind) const {
-  std::vector<const Finding*> chosen = OfChange(Change::kRegressed);
-  std::erase_if(chosen, [kind](const Finding* finding) { return finding->kind != kind; });
+std::vector<const GateFinding*> Judgement::Regressions(NumberKind kind) const {
+  std::vector<const GateFinding*> chosen = OfChange(Change::kRegressed);
+  std::erase_if(chosen, [kind](const GateFinding* finding) { return finding->kind != kind; });
   return chosen;
 }
 

@@ -35,7 +35,7 @@ struct Blame {
   std::string last_good, first_bad;
 };
 
-struct Finding {
+struct GateFinding {
   std::string run;  // GatedRun::name()
   NumberKind kind = NumberKind::kAccuracy;
   std::string metric;
@@ -50,14 +50,14 @@ struct Finding {
 };
 
 struct Judgement {
-  std::vector<Finding> findings;                // every number that was held against the baseline
+  std::vector<GateFinding> findings;            // every number that was held against the baseline
   std::map<std::string, std::string> failures;  // run → what went wrong; unsteady numbers too
   std::vector<std::string> unknown;             // measured, but not in the baseline
   std::vector<std::string> unmeasured;          // runs or numbers of the baseline that are no more
   std::string speed_not_judged;                 // "" or why no time was compared
 
-  std::vector<const Finding*> OfChange(Change change) const;
-  std::vector<const Finding*> Regressions(NumberKind kind) const;
+  std::vector<const GateFinding*> OfChange(Change change) const;
+  std::vector<const GateFinding*> Regressions(NumberKind kind) const;
   // The code of the worst that happened: a failed run, then nothing measured (or less than the
   // baseline holds), then accuracy, then speed.
   ExitCode Code() const;

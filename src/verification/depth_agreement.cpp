@@ -47,17 +47,17 @@ Outline OutlineOf(const DepthImage& depth) {
 
 }  // namespace
 
-double Agreement::AgreeingShare() const { return both == 0 ? 0.0 : Share(agreeing, both); }
-double Agreement::CoveredShare() const { return rendered == 0 ? 1.0 : Share(both, rendered); }
-double Agreement::Silhouette() const {
+double DepthAgreement::AgreeingShare() const { return both == 0 ? 0.0 : Share(agreeing, both); }
+double DepthAgreement::CoveredShare() const { return rendered == 0 ? 1.0 : Share(both, rendered); }
+double DepthAgreement::Silhouette() const {
   const long either = rendered + measured - both;
   return either == 0 ? 1.0 : Share(both, either);
 }
-double Agreement::Score() const { return rendered == 0 ? 0.0 : Share(agreeing, rendered); }
-double Agreement::DepthRatio() const { return ratios.empty() ? 1.0 : Quantile(ratios, 0.5); }
+double DepthAgreement::Score() const { return rendered == 0 ? 0.0 : Share(agreeing, rendered); }
+double DepthAgreement::DepthRatio() const { return ratios.empty() ? 1.0 : Quantile(ratios, 0.5); }
 
-Agreement Compare(const DepthImage& measured, const DepthImage& rendered) {
-  Agreement a;
+DepthAgreement Compare(const DepthImage& measured, const DepthImage& rendered) {
+  DepthAgreement a;
   for (std::size_t i = 0; i < rendered.pixels().size(); ++i) {
     const float z = measured.pixels()[i], truth = rendered.pixels()[i];
     a.rendered += truth > 0.0f ? 1 : 0;
@@ -69,7 +69,7 @@ Agreement Compare(const DepthImage& measured, const DepthImage& rendered) {
   return a;
 }
 
-void Add(const Agreement& frame, Agreement& sum) {
+void Add(const DepthAgreement& frame, DepthAgreement& sum) {
   sum.rendered += frame.rendered;
   sum.measured += frame.measured;
   sum.both += frame.both;

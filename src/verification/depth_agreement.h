@@ -9,7 +9,7 @@
 namespace vitruvia {
 
 // Counts of pixels of one frame, or of several added up.
-struct Agreement {
+struct DepthAgreement {
   long rendered = 0;  // pixels that show the true surface
   long measured = 0;  // pixels with depth
   long both = 0;
@@ -25,8 +25,8 @@ struct Agreement {
   double DepthRatio() const;
 };
 
-Agreement Compare(const DepthImage& measured, const DepthImage& rendered);
-void Add(const Agreement& frame, Agreement& sum);
+DepthAgreement Compare(const DepthImage& measured, const DepthImage& rendered);
+void Add(const DepthAgreement& frame, DepthAgreement& sum);
 
 // Pixels where the true surface and its image mirrored or turned differ, by which of the two the
 // depth has.

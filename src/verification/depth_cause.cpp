@@ -46,7 +46,7 @@ Evidence EvidenceOf(const SequenceReader& sequence, int depth_frame, int truth_f
 // The share of the truth that depth agrees with, over some frames.
 double ScoreOf(const SequenceReader& sequence, const std::vector<Evidence>& frames,
                const std::function<void(Evidence&)>& undo) {
-  Agreement surface;
+  DepthAgreement surface;
   JointAgreement joints;
   for (Evidence e : frames) {
     undo(e);
@@ -184,7 +184,7 @@ JointAgreement CompareWithJoints(const SequenceReader& sequence, const std::vect
   return sum;
 }
 
-std::string CauseOfDisagreement(const SequenceReader& sequence, const Agreement& as_stated) {
+std::string CauseOfDisagreement(const SequenceReader& sequence, const DepthAgreement& as_stated) {
   return Search(sequence, as_stated.Score(), as_stated.ratios);
 }
 

@@ -18,7 +18,7 @@ JointAgreement CompareWithJoints(const SequenceReader& sequence, const std::vect
 
 // Tries units, byte order, mirror images, axes, cameras of other resolutions and shifts in time on
 // a few frames. The cause in words, with its evidence; or that there is no simple one.
-std::string CauseOfDisagreement(const SequenceReader& sequence, const Agreement& as_stated);
+std::string CauseOfDisagreement(const SequenceReader& sequence, const DepthAgreement& as_stated);
 std::string CauseOfDisagreement(const SequenceReader& sequence, const JointAgreement& as_stated);
 
 }  // namespace vitruvia

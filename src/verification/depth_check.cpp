@@ -30,14 +30,14 @@ constexpr std::array<ImageTurn, 3> kImageTurns{
 
 // All that frames say together of depth and true surface.
 struct SurfaceComparison {
-  Agreement sum;
+  DepthAgreement sum;
   std::array<MirrorVotes, kImageTurns.size()> votes;
   std::vector<double> scales_u, scales_v, shifts_u_px, shifts_v_px;  // of frames with like outlines
   std::optional<Finding> frame_problem;
 };
 
 // One frame alone is in another unit although its outline is the surface's.
-std::optional<Finding> FrameProblem(const Agreement& a, int frame, double unit_m) {
+std::optional<Finding> FrameProblem(const DepthAgreement& a, int frame, double unit_m) {
   const double ratio = a.DepthRatio();
   if (a.both < kFewPixels || a.AgreeingShare() >= kFrameAgreeingShare ||
       a.Silhouette() < kFrameSilhouette || std::max(ratio, 1.0 / ratio) < kFrameRatio)
@@ -58,7 +58,7 @@ SurfaceComparison CompareWithSurface(const SequenceReader& sequence,
     const DepthImage measured = sequence.ReadDepth(frame);
     const DepthImage& rendered =
         zbuffer.Render(sequence.ReadTrueVertices(frame), sequence.true_rest_mesh().triangles);
-    const Agreement a = Compare(measured, rendered);
+    const DepthAgreement a = Compare(measured, rendered);
     if (a.measured == 0) continue;  // a lost frame
     Add(a, all.sum);
     for (std::size_t k = 0; k < kImageTurns.size(); ++k)
@@ -121,7 +121,7 @@ void WarnOfSlightDifferences(const SequenceInfo& info, const SurfaceComparison& 
 
 Findings CheckAgainstSurface(const SequenceReader& sequence, const std::vector<int>& frames) {
   const SurfaceComparison all = CompareWithSurface(sequence, frames);
-  const Agreement& sum = all.sum;
+  const DepthAgreement& sum = all.sum;
   if (sum.measured < kFewPixels) return {};
   const std::string evidence = fmt::format(
       "{} pixels of {} frames show the true surface, {} of them have depth, {} agree within {:g} m",
