@@ -118,7 +118,7 @@ DepthTarget::DepthTarget(const DepthImage& depth, const PinholeCamera& camera,
   tree_.Build(points_.points);
 }
 
-void DepthTarget::FindVisible(const PosedShape& body) {
+void DepthTarget::FindVisible(const PosedBody& body) {
   const std::vector<Vector3f>& vertices = body.vertices();
   const DepthImage& rendered = zbuffer_.Render(vertices, body.body().triangles);
   visible_.clear();
@@ -143,7 +143,7 @@ DepthTarget::Evidence DepthTarget::EvidenceOf(const Vector3f& vertex, double mar
   return vertex.z() > measured + margin_m ? Evidence::kHidden : Evidence::kSurface;
 }
 
-void DepthTarget::FindPairs(const PosedShape& body, double cutoff_m, std::vector<FitPair>& pairs) {
+void DepthTarget::FindPairs(const PosedBody& body, double cutoff_m, std::vector<FitPair>& pairs) {
   const auto cutoff = static_cast<float>(cutoff_m);
   pairs.clear();
   FindVisible(body);
@@ -173,7 +173,7 @@ void DepthTarget::FindPairs(const PosedShape& body, double cutoff_m, std::vector
   }
 }
 
-MutualDistance DepthTarget::Measure(const PosedShape& body, const NearFar& limits) {
+MutualDistance DepthTarget::Measure(const PosedBody& body, const NearFar& limits) {
   const auto far_m = static_cast<float>(limits.far_m);
   FindVisible(body);
   DistanceSum from_body, from_target;
@@ -210,7 +210,7 @@ MutualDistance DepthTarget::Measure(const PosedShape& body, const NearFar& limit
           from_body.share()};
 }
 
-Vector3d DepthTarget::VisibleCenter(const PosedShape& body) {
+Vector3d DepthTarget::VisibleCenter(const PosedBody& body) {
   FindVisible(body);
   return visible_positions_.empty() ? body.joints()[0] : Centroid(visible_positions_);
 }

@@ -27,16 +27,16 @@ class DepthTarget final : public FitTarget {
 
   bool is_empty() const { return points_.points.empty(); }
   double height_m() const { return double{BoundingBox(points_.points).sizes().y()}; }
-  void FindPairs(const PosedShape& body, double cutoff_m, std::vector<FitPair>& pairs) override;
-  MutualDistance Measure(const PosedShape& body, const NearFar& limits) override;
+  void FindPairs(const PosedBody& body, double cutoff_m, std::vector<FitPair>& pairs) override;
+  MutualDistance Measure(const PosedBody& body, const NearFar& limits) override;
   Vector3d Center() const override { return centroid_; }
-  Vector3d VisibleCenter(const PosedShape& body) override;
+  Vector3d VisibleCenter(const PosedBody& body) override;
 
  private:
   // What the frame says of a vertex that is visible on the body.
   enum class Evidence { kSurface, kHidden, kContradicted };
 
-  void FindVisible(const PosedShape& body);
+  void FindVisible(const PosedBody& body);
   Evidence EvidenceOf(const Vector3f& vertex, double margin_m) const;
 
   PinholeCamera cell_camera_;

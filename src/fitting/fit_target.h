@@ -36,11 +36,11 @@ class FitTarget {
  public:
   virtual ~FitTarget() = default;
   // Replaces `pairs`. No pair is farther apart than cutoff_m.
-  virtual void FindPairs(const PosedShape& body, double cutoff_m, std::vector<FitPair>& pairs) = 0;
-  virtual MutualDistance Measure(const PosedShape& body, const NearFar& limits) = 0;
+  virtual void FindPairs(const PosedBody& body, double cutoff_m, std::vector<FitPair>& pairs) = 0;
+  virtual MutualDistance Measure(const PosedBody& body, const NearFar& limits) = 0;
   // The mean of the points, and of the body's vertices that they should show.
   virtual Vector3d Center() const = 0;
-  virtual Vector3d VisibleCenter(const PosedShape& body) = 0;
+  virtual Vector3d VisibleCenter(const PosedBody& body) = 0;
 };
 
 }  // namespace vitruvia

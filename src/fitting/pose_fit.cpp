@@ -13,9 +13,9 @@ namespace {
 constexpr int kRows = 256;  // added as one product
 
 BodyState Stepped(BodyState state, const Eigen::VectorXd& step) {
-  state.rotation = ExpSo3<double>(step.segment<3>(PosedShape::kRotation)) * state.rotation;
-  state.pelvis_position += step.segment<3>(PosedShape::kPosition);
-  state.angles_deg += step.segment<kAngleCount>(PosedShape::kAngles) / kRadiansPerDegree;
+  state.rotation = ExpSo3<double>(step.segment<3>(PosedBody::kRotation)) * state.rotation;
+  state.pelvis_position += step.segment<3>(PosedBody::kPosition);
+  state.angles_deg += step.segment<kAngleCount>(PosedBody::kAngles) / kRadiansPerDegree;
   state.angles_deg =
       state.angles_deg.cwiseMax(JointLimits().min_deg).cwiseMin(JointLimits().max_deg);
   state.theta += step.tail(state.theta.size());
@@ -98,16 +98,16 @@ Eigen::VectorXd PoseFit::Step(const BodyState& state, const FitStage& stage,
   hessian.diagonal().array() += kDamping;
   const double stiffness = 1.0 / std::pow(priors.angle_deviation_deg * kRadiansPerDegree, 2);
   for (int a = 0; a < kAngleCount; ++a) {
-    const int at = PosedShape::kAngles + a;
+    const int at = PosedBody::kAngles + a;
     hessian(at, at) += stiffness;
     gradient[at] += stiffness * kRadiansPerDegree * (state.angles_deg[a] - priors.angles_deg[a]);
   }
-  for (int k = PosedShape::kShape; k < columns; ++k) {
+  for (int k = PosedBody::kShape; k < columns; ++k) {
     hessian(k, k) += 1.0;
-    gradient[k] += state.theta[k - PosedShape::kShape] - priors.theta[k - PosedShape::kShape];
+    gradient[k] += state.theta[k - PosedBody::kShape] - priors.theta[k - PosedBody::kShape];
   }
   std::vector<int> free;
-  for (int k = 0; k < (stage.moves_shape ? columns : PosedShape::kShape); ++k) free.push_back(k);
+  for (int k = 0; k < (stage.moves_shape ? columns : PosedBody::kShape); ++k) free.push_back(k);
   Eigen::VectorXd step = Eigen::VectorXd::Zero(columns);
   const AngleRanges& limits = JointLimits();
   constexpr int kMostRounds = 4;  // of holding angles at their limits
@@ -115,7 +115,7 @@ Eigen::VectorXd PoseFit::Step(const BodyState& state, const FitStage& stage,
     SolveFree(hessian, gradient, free, step);
     std::vector<int> still_free;
     for (const int k : free) {
-      const int a = k - PosedShape::kAngles;
+      const int a = k - PosedBody::kAngles;
       if (a < 0 || a >= kAngleCount) {
         still_free.push_back(k);
         continue;
@@ -142,7 +142,7 @@ BodyState PoseFit::Run(FitTarget& target, BodyState state, const FitStage& stage
     posed_.Differentiate();
     Assemble(stage, 0.5 * cutoff_m, priors);
     Eigen::VectorXd step = Step(state, stage, priors);
-    const double longest = step.head(PosedShape::kShape).cwiseAbs().maxCoeff();
+    const double longest = step.head(PosedBody::kShape).cwiseAbs().maxCoeff();
     if (longest > kLongestStep) step *= kLongestStep / longest;
     state = Stepped(std::move(state), step);
   }

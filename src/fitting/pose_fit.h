@@ -43,7 +43,7 @@ class PoseFit {
   void Assemble(const FitStage& stage, double robust_m, const FitPriors& priors);
   Eigen::VectorXd Step(const BodyState& state, const FitStage& stage, const FitPriors& priors);
 
-  PosedShape posed_;
+  PosedBody posed_;
   std::vector<FitPair> pairs_;
   Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows_;
   Eigen::VectorXf residuals_;

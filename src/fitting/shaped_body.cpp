@@ -183,7 +183,7 @@ std::vector<Vector3f> ShapedSurface(const ShapedBody& body, const Eigen::VectorX
   return rest;
 }
 
-PosedShape::PosedShape(const ShapedBody& body) : body_(body), area_shares_(body.mean.size(), 0.0f) {
+PosedBody::PosedBody(const ShapedBody& body) : body_(body), area_shares_(body.mean.size(), 0.0f) {
   float all = 0.0f, edges = 0.0f;
   for (const Triangle& t : body.triangles) {
     const Vector3f a = body.mean[t[1]] - body.mean[t[0]], b = body.mean[t[2]] - body.mean[t[0]];
@@ -196,8 +196,8 @@ PosedShape::PosedShape(const ShapedBody& body) : body_(body), area_shares_(body.
   for (float& share : area_shares_) share *= static_cast<float>(area_shares_.size()) / (3.0f * all);
 }
 
-void PosedShape::Set(const BodyState& state) {
-  Require(state.theta.size() == body_.shape_count(), "PosedShape: {} coefficients, expected {}",
+void PosedBody::Set(const BodyState& state) {
+  Require(state.theta.size() == body_.shape_count(), "PosedBody: {} coefficients, expected {}",
           state.theta.size(), body_.shape_count());
   state_ = state;
   const Eigen::VectorXd rest_joints = ShapedJoints(body_, state.theta);
@@ -211,7 +211,7 @@ void PosedShape::Set(const BodyState& state) {
   ComputeVertexNormals(vertices_, body_.triangles, normals_);
 }
 
-void PosedShape::Differentiate() {
+void PosedBody::Differentiate() {
   for (Twists& twists : twists_) twists = Twists::Zero(6, kShape);
   const auto add = [&](int bone, int parameter, const Vector3d& axis, const Vector3d& pivot) {
     twists_[bone].col(parameter).head<3>() += axis.cast<float>();
@@ -244,7 +244,7 @@ void PosedShape::Differentiate() {
   }
 }
 
-void PosedShape::Row(int vertex, const Vector3f& n, float* row) const {
+void PosedBody::Row(int vertex, const Vector3f& n, float* row) const {
   const auto v = static_cast<std::size_t>(vertex);
   Eigen::Map<Eigen::RowVectorXf> all(row, parameter_count());
   all.setZero();

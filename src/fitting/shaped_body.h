@@ -57,9 +57,9 @@ std::vector<Vector3f> ShapedSurface(const ShapedBody& body, const Eigen::VectorX
 
 // The surface in a state, and its derivatives. Parameters: a rotation vector of the whole body
 // about the pelvis joint (world frame, rad), the pelvis' position (m), the angles (rad), θ.
-class PosedShape {
+class PosedBody {
  public:
-  explicit PosedShape(const ShapedBody& body);
+  explicit PosedBody(const ShapedBody& body);
 
   static constexpr int kRotation = 0, kPosition = 3, kAngles = 6, kShape = 6 + kAngleCount;
   int parameter_count() const { return kShape + body_.shape_count(); }

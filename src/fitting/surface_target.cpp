@@ -19,8 +19,7 @@ SurfaceTarget::SurfaceTarget(OrientedPoints points, int seekers, Clothing clothi
   tree_.Build(points_.points);
 }
 
-void SurfaceTarget::FindPairs(const PosedShape& body, double cutoff_m,
-                              std::vector<FitPair>& pairs) {
+void SurfaceTarget::FindPairs(const PosedBody& body, double cutoff_m, std::vector<FitPair>& pairs) {
   const std::vector<Vector3f>& vertices = body.vertices();
   const auto cutoff = static_cast<float>(cutoff_m);
   const auto weight_of = [&](const Vector3f& inside_from, const Vector3f& surface,
@@ -49,7 +48,7 @@ void SurfaceTarget::FindPairs(const PosedShape& body, double cutoff_m,
   }
 }
 
-MutualDistance SurfaceTarget::Measure(const PosedShape& body, const NearFar& limits) {
+MutualDistance SurfaceTarget::Measure(const PosedBody& body, const NearFar& limits) {
   const std::vector<Vector3f>& vertices = body.vertices();
   const auto far_m = static_cast<float>(limits.far_m);
   // Of a point from the one that was found nearest to it.
@@ -79,6 +78,6 @@ MutualDistance SurfaceTarget::Measure(const PosedShape& body, const NearFar& lim
           from_body.share()};
 }
 
-Vector3d SurfaceTarget::VisibleCenter(const PosedShape& body) { return Centroid(body.vertices()); }
+Vector3d SurfaceTarget::VisibleCenter(const PosedBody& body) { return Centroid(body.vertices()); }
 
 }  // namespace vitruvia

@@ -15,10 +15,10 @@ class SurfaceTarget final : public FitTarget {
   // `seekers` of the points look for the body; the body looks for all of them.
   SurfaceTarget(OrientedPoints points, int seekers, Clothing clothing);
 
-  void FindPairs(const PosedShape& body, double cutoff_m, std::vector<FitPair>& pairs) override;
-  MutualDistance Measure(const PosedShape& body, const NearFar& limits) override;
+  void FindPairs(const PosedBody& body, double cutoff_m, std::vector<FitPair>& pairs) override;
+  MutualDistance Measure(const PosedBody& body, const NearFar& limits) override;
   Vector3d Center() const override { return centroid_; }
-  Vector3d VisibleCenter(const PosedShape& body) override;
+  Vector3d VisibleCenter(const PosedBody& body) override;
 
  private:
   OrientedPoints points_, seekers_;

@@ -33,7 +33,7 @@ class TemplateMisfit {
         truth_(truth),
         on_truth_(ClosestSurfacePoints(subject.rest.vertices, truth.rest)) {}
 
-  void Add(const PosedBody& posed_truth) {
+  void Add(const TruePose& posed_truth) {
     SkinLinear(subject_.rest.vertices, subject_.weights, posed_truth.camera_from_rest, posed_);
     for (std::size_t i = 0; i < posed_.size(); ++i) {
       const Vector3f target =
@@ -176,7 +176,7 @@ class Stage {
     room_ = renderer_.Render(room.vertices, room.triangles);
   }
 
-  PosedBody PosedAt(double time_s) {
+  TruePose PosedAt(double time_s) {
     const MotionSample sample = motion_.At(time_s);
     if (!settings_.truth.cloth.IsBare()) {
       garment_.Dress(sample.pose, time_s, dressed_.rest.vertices);
@@ -187,7 +187,7 @@ class Stage {
   // Without a person; empty where the scene has no room.
   const DepthImage& room() const { return room_; }
 
-  DepthImage Rendered(double time_s, const PosedBody& body) {
+  DepthImage Rendered(double time_s, const TruePose& body) {
     TriangleMesh seen{body.vertices, dressed_.rest.triangles};
     AddOccluder(settings_.occluder, time_s, camera_from_subject_, seen);
     DepthImage depth = renderer_.Render(seen.vertices, seen.triangles);
@@ -196,7 +196,7 @@ class Stage {
   }
 
   // Where `depth`, rendered at the same time, shows the body.
-  MaskImage BodyMask(const PosedBody& body, const DepthImage& depth) {
+  MaskImage BodyMask(const TruePose& body, const DepthImage& depth) {
     const DepthImage alone = renderer_.Render(body.vertices, dressed_.rest.triangles);
     MaskImage mask(depth.width(), depth.height());
     for (std::size_t i = 0; i < mask.pixels().size(); ++i) {
@@ -256,7 +256,7 @@ class OtherCameras {
   // Only the body and what hides it, without the room: what the score compares is the body.
   void Record(int frame, double time_s, const SequenceWriter& writer) {
     for (std::size_t k = 0; k < stages_.size(); ++k) {
-      const PosedBody posed = stages_[k]->PosedAt(time_s);
+      const TruePose posed = stages_[k]->PosedAt(time_s);
       DepthImage depth = stages_[k]->Rendered(time_s, posed);
       const MaskImage mask = stages_[k]->BodyMask(posed, depth);
       for (std::size_t i = 0; i < mask.pixels().size(); ++i) {
@@ -286,10 +286,10 @@ void RecordEmptyRoom(const SceneSettings& settings, const DepthImage& room,
 
 }  // namespace
 
-PosedBody Pose(const BodyModel& body, const MotionSample& sample, Skinning skinning,
-               const Rigidd& camera_from_subject) {
+TruePose Pose(const BodyModel& body, const MotionSample& sample, Skinning skinning,
+              const Rigidd& camera_from_subject) {
   const BoneTransforms bones = ForwardKinematics(body.skeleton, sample.pose);
-  PosedBody posed;
+  TruePose posed;
   if (skinning == Skinning::kLinear) {
     SkinLinear(body.rest.vertices, body.weights, bones, posed.vertices);
   } else {
@@ -328,7 +328,7 @@ void RecordSequence(const SceneSettings& settings, const BodyModel& truth, const
     Progress progress("synth " + folder.filename().string(), settings.frames);
     for (int frame = 0; frame < settings.frames; ++frame) {
       const double time_s = frame / settings.fps;
-      const PosedBody posed = stage.PosedAt(time_s);
+      const TruePose posed = stage.PosedAt(time_s);
       RequireInRange(posed.vertices, frame);
       watch.Look(posed.vertices, frame);
       misfit.Add(posed);

@@ -15,12 +15,12 @@ void RecordSequence(const SceneSettings& settings, const BodyModel& truth, const
                     const Motion& motion, const std::filesystem::path& folder);
 
 // The body's surface and joints in the camera frame, and the motion that brought them there.
-struct PosedBody {
+struct TruePose {
   std::vector<Vector3f> vertices;
   std::vector<Vector3<double>> joints;
   BoneTransforms camera_from_rest;
 };
-PosedBody Pose(const BodyModel& body, const MotionSample& sample, Skinning skinning,
-               const Rigidd& camera_from_subject);
+TruePose Pose(const BodyModel& body, const MotionSample& sample, Skinning skinning,
+              const Rigidd& camera_from_subject);
 
 }  // namespace vitruvia

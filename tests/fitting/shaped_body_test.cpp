@@ -41,14 +41,14 @@ BodyState SomeState() {
 }
 
 BodyState Moved(BodyState state, int parameter, double by) {
-  if (parameter < PosedShape::kPosition) {
+  if (parameter < PosedBody::kPosition) {
     state.rotation = ExpSo3<double>(by * Vector3d::Unit(parameter)) * state.rotation;
-  } else if (parameter < PosedShape::kAngles) {
-    state.pelvis_position[parameter - PosedShape::kPosition] += by;
-  } else if (parameter < PosedShape::kShape) {
-    state.angles_deg[parameter - PosedShape::kAngles] += by / kRadiansPerDegree;
+  } else if (parameter < PosedBody::kAngles) {
+    state.pelvis_position[parameter - PosedBody::kPosition] += by;
+  } else if (parameter < PosedBody::kShape) {
+    state.angles_deg[parameter - PosedBody::kAngles] += by / kRadiansPerDegree;
   } else {
-    state.theta[parameter - PosedShape::kShape] += by;
+    state.theta[parameter - PosedBody::kShape] += by;
   }
   return state;
 }
@@ -70,7 +70,7 @@ TEST(ShapedBody, SurfaceIsSkinnedByForwardKinematics) {
   const ShapedBody body = RigidShape(model, 100000);
   BodyState state = SomeState();
   state.theta.resize(0);
-  PosedShape posed(body);
+  PosedBody posed(body);
   posed.Set(state);
 
   JointPose pose = JointPose::Rest(model.skeleton);
@@ -88,7 +88,7 @@ TEST(ShapedBody, SurfaceIsSkinnedByForwardKinematics) {
 TEST(ShapedBody, RowsAreTheDerivativesOfTheSurface) {
   const ShapedBody body = GrowingBody();
   const BodyState state = SomeState();
-  PosedShape posed(body), moved(body);
+  PosedBody posed(body), moved(body);
   posed.Set(state);
   posed.Differentiate();
   std::vector<float> row(static_cast<std::size_t>(posed.parameter_count()));

@@ -104,7 +104,7 @@ TEST(View, LooksUprightFromItsPlaceAtItsPoint) {
 TEST(Pose, StandsOnTheFloorWhereItIsToBeGrounded) {
   const BodyModel body = TinyBody();
   const Rigidd same;
-  const auto lowest = [](const PosedBody& posed) {
+  const auto lowest = [](const TruePose& posed) {
     float y = 1e9f;
     for (const Vector3f& p : posed.vertices) y = std::min(y, p.y());
     return y;
@@ -112,7 +112,7 @@ TEST(Pose, StandsOnTheFloorWhereItIsToBeGrounded) {
   for (const Skinning skinning : {Skinning::kLinear, Skinning::kDualQuaternion}) {
     MotionSample sample{JointPose::Rest(body.skeleton), true, 0.25};
     sample.pose.pelvis_position.y() += 7.0;
-    const PosedBody lifted = Pose(body, sample, skinning, same);
+    const TruePose lifted = Pose(body, sample, skinning, same);
     EXPECT_NEAR(lowest(lifted), 0.25f, 1e-5);
     for (int b = 0; b < kBoneCount; ++b) {
       EXPECT_LT((lifted.joints[b] - body.skeleton.joints[b] - Vector3d(0, 0.25, 0)).norm(), 1e-5);
@@ -126,7 +126,7 @@ TEST(Pose, MovesSurfaceAndJointsIntoTheCameraFrame) {
   const BodyModel body = TinyBody();
   const Rigidd camera_from_subject = CameraFromSubject(ViewSettings{});
   const MotionSample sample{JointPose::Rest(body.skeleton), true, 0.0};
-  const PosedBody posed = Pose(body, sample, Skinning::kLinear, camera_from_subject);
+  const TruePose posed = Pose(body, sample, Skinning::kLinear, camera_from_subject);
   for (std::size_t i = 0; i < posed.vertices.size(); ++i) {
     const Vector3d expected = camera_from_subject * body.rest.vertices[i].cast<double>().eval();
     ASSERT_LT((posed.vertices[i].cast<double>() - expected).norm(), 1e-6);
@@ -181,7 +181,7 @@ TEST(RecordSequence, WritesWhatTheBodyDoes) {
   const RaiseLeftForearm motion(truth.skeleton);
   DepthRenderer renderer(scene.view.camera);
   for (int i = 0; i < 4; ++i) {
-    const PosedBody posed =
+    const TruePose posed =
         Pose(truth, motion.At(i / 3.0), Skinning::kLinear, CameraFromSubject(scene.view));
     EXPECT_EQ(reader.ReadTrueVertices(i), posed.vertices);
     EXPECT_EQ(reader.true_joints(i).positions, posed.joints);
@@ -337,8 +337,8 @@ TEST(ShippedScenes, KeepTheWholeBodyInView) {
     const BodyModel body = Refine(control, {});
     const std::unique_ptr<Motion> motion = LoadMotion(scene.motion, body.skeleton);
     for (int i = 0; i < scene.frames; ++i) {
-      const PosedBody posed = Pose(body, motion->At(i / scene.fps), scene.truth.skinning,
-                                   CameraFromSubject(scene.view));
+      const TruePose posed = Pose(body, motion->At(i / scene.fps), scene.truth.skinning,
+                                  CameraFromSubject(scene.view));
       for (const Vector3f& p : posed.vertices) {
         const Eigen::Vector2f pixel = scene.view.camera.Project(p);
         ASSERT_TRUE(pixel.x() > 0 && pixel.x() < width - 1 && pixel.y() > 0 &&

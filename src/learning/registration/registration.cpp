@@ -135,7 +135,7 @@ Eigen::VectorXd Registrar::StartShape(const PoseHypothesis& hypothesis, double h
   if (known_.height_m) return scaled(expected_.scale);
   BodyState state = hypothesis.state;
   state.theta = scaled(1.0);
-  PosedShape posed(coarse_body_);
+  PosedBody posed(coarse_body_);
   posed.Set(state);
   constexpr double kLeastHeight_m = 0.7, kMostHeight_m = 2.2;
   const double standing_m = HeightOf(ShapedSurface(coarse_body_, state.theta));
