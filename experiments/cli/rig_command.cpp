@@ -26,18 +26,12 @@ struct RigArguments {
   PersonOptions person;
 };
 
-TriangleMesh ReadScaled(const fs::path& file, double unit_m) {
-  TriangleMesh mesh = ReadMesh(file);
-  for (Vector3f& v : mesh.vertices) v *= static_cast<float>(unit_m);
-  return mesh;
-}
-
 std::vector<TriangleMesh> ReadMeshes(const fs::path& path, double unit_m) {
-  if (!fs::is_directory(path)) return {ReadScaled(path, unit_m)};
+  if (!fs::is_directory(path)) return {ReadMesh(path, unit_m)};
   const FrameFiles frames = FindFrameFiles(path, IsMeshFile, {}, ".obj, .ply or .off files");
   if (!frames.warning.empty()) PrintMessage("warning: {}\n", frames.warning);
   std::vector<TriangleMesh> meshes;
-  for (const fs::path& file : frames.files) meshes.push_back(ReadScaled(file, unit_m));
+  for (const fs::path& file : frames.files) meshes.push_back(ReadMesh(file, unit_m));
   return meshes;
 }
 

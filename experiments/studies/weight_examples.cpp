@@ -13,16 +13,9 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::array kMeshExtensions = {".ply", ".obj", ".off"};
 constexpr const char* kWeightsFile = "weights.bin";
 constexpr std::size_t kFewestPoses = 2;  // weights and transforms cannot be told apart in one
 constexpr int kMostBones = 256;          // of weights.bin
-
-std::string LowerExtension(const fs::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
-}
 
 // The meshes of a folder in ascending order of their names, the rest mesh left out.
 std::vector<fs::path> MeshFiles(const fs::path& folder, const fs::path& rest) {
@@ -31,9 +24,7 @@ std::vector<fs::path> MeshFiles(const fs::path& folder, const fs::path& rest) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     const fs::path& file = entry.path();
     if (file.filename().string().starts_with(".")) continue;
-    const std::string extension = LowerExtension(file);
-    if (std::find(kMeshExtensions.begin(), kMeshExtensions.end(), extension) ==
-        kMeshExtensions.end()) {
+    if (!IsMeshFile(file)) {
       throw DataError(
           fmt::format("{}: expected only PLY, OBJ and OFF files in this folder", file.string()));
     }

@@ -112,6 +112,12 @@ TriangleMesh ReadMesh(const std::filesystem::path& file) {
   return mesh;
 }
 
+TriangleMesh ReadMesh(const std::filesystem::path& file, double unit_m) {
+  TriangleMesh mesh = ReadMesh(file);
+  for (Vector3f& v : mesh.vertices) v *= static_cast<float>(unit_m);
+  return mesh;
+}
+
 void WriteMesh(const std::filesystem::path& file, const TriangleMesh& mesh) {
   WriteWholeFile(file, FormatOf(file).format(mesh));
 }

@@ -13,6 +13,8 @@ bool IsMeshFile(const std::filesystem::path& file);  // by its extension
 // if the file is missing or damaged, has faces that are not triangles, indices out of range, or
 // vertices that are not finite.
 TriangleMesh ReadMesh(const std::filesystem::path& file);
+// Of a file whose unit of length is unit_m metres.
+TriangleMesh ReadMesh(const std::filesystem::path& file, double unit_m);
 
 // PLY is written as little-endian binary. RunError if the file cannot be written.
 void WriteMesh(const std::filesystem::path& file, const TriangleMesh& mesh);

@@ -26,12 +26,6 @@ namespace {
 
 constexpr float kNearestToCamera_m = 0.1f;
 
-TriangleMesh ReadScaled(const fs::path& file, double unit_m) {
-  TriangleMesh mesh = ReadMesh(file);
-  for (Vector3f& v : mesh.vertices) v *= static_cast<float>(unit_m);
-  return mesh;
-}
-
 // Where the subject's joints are, given the true surface in some pose: the affine motions A_b of
 // the bones that come nearest to Σ_b w_vb A_b x_v = y_v over all vertices v of the template (x_v at
 // rest, y_v now, w_vb its skinning weights), by linear least squares. Exact for a linearly skinned
@@ -93,7 +87,7 @@ class JointFinder {
 
 // The mesh of one frame, camera frame.
 TriangleMesh ReadFrame(const fs::path& file, const MeshSequenceSettings& settings) {
-  TriangleMesh mesh = ReadScaled(file, settings.unit_m);
+  TriangleMesh mesh = ReadMesh(file, settings.unit_m);
   if (settings.frame == MeshFrame::kSubject) {
     const Rigidf camera_from_subject = CameraFromSubject(settings.view).Cast<float>();
     for (Vector3f& v : mesh.vertices) v = camera_from_subject * v;
@@ -145,7 +139,7 @@ DepthImage Measured(const DepthImage& depth, const MeshSequenceSettings& setting
 void ImportCorrespondingMeshes(const MeshSequenceSettings& settings, const FrameFiles& files,
                                const fs::path& folder) {
   const BodyModel subject = ReadBodyModel(settings.subject);
-  const TriangleMesh rest = ReadScaled(settings.rest, settings.unit_m);
+  const TriangleMesh rest = ReadMesh(settings.rest, settings.unit_m);
   RequireRestMeshOf(subject, settings.subject, rest, settings.rest);
   const PinholeCamera& camera = settings.view.camera;
   const JointFinder joints(subject, rest);

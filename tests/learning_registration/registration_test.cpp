@@ -7,7 +7,7 @@
 #include "math/angles.h"
 #include "math/rigid.h"
 #include "math/rotation.h"
-#include "synth/population/make_database.h"
+#include "support/small_space.h"
 
 namespace vitruvia {
 namespace {
@@ -15,16 +15,7 @@ namespace {
 using testing::HasSubstr;
 
 const ShapeSpace& SmallSpace() {
-  static const ShapeSpace space = [] {
-    DatabaseSettings settings;
-    settings.population.subjects = 24;
-    settings.mesh.subdivisions = 2;
-    settings.subjects_with_poses = 0;
-    const BodyDatabase database = MakeDatabase(settings);
-    std::vector<int> all(database.subjects.size());
-    for (std::size_t s = 0; s < all.size(); ++s) all[s] = static_cast<int>(s);
-    return LearnShapeSpace(database, all, {.components = 5});
-  }();
+  static const ShapeSpace space = LearnSmallSpace(24, 5);
   return space;
 }
 

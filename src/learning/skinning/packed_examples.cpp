@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "geometry/point_sets.h"
+
 namespace vitruvia::skinning {
 namespace {
-
-Vector3d Centroid(const std::vector<Vector3f>& vertices) {
-  Vector3d sum = Vector3d::Zero();
-  for (const Vector3f& vertex : vertices) sum += vertex.cast<double>();
-  return sum / static_cast<double>(vertices.size());
-}
 
 std::vector<int> RowsByLabel(std::span<const std::uint8_t> labels) {
   std::vector<int> order(labels.size());

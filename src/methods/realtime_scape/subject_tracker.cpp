@@ -15,9 +15,9 @@ SubjectTracker::SubjectTracker(const Subject& subject, const PinholeCamera& came
       model_(subject),
       observer_(camera, settings),
       fitter_(model_, camera, settings),
-      limb_finder_(model_, camera, settings),
       relocalizer_(model_, camera, settings),
       loss_detector_(settings.recovery) {
+  if (settings.limbs.min_unexplained_m2 > 0.0) limb_finder_.emplace(model_, camera, settings);
   if (settings.start == Start::kSearch) {
     start_search_.emplace(subject, camera, settings.cloud.max_depth_m, settings.start_search);
   }
@@ -72,8 +72,8 @@ PoseHistory SubjectTracker::Place(const PointCloud& cloud) const {
 
 // What a search for a limb takes is the same step of the frame as relocalisation.
 FitSummary SubjectTracker::TakeFoundLimb(const Observation& observation, FitSummary fit) {
-  if (settings_.limbs.min_unexplained_m2 == 0.0) return fit;
-  std::optional<FitSummary> found = limb_finder_.Search(observation, fit, fitter_.unexplained());
+  if (!limb_finder_) return fit;
+  std::optional<FitSummary> found = limb_finder_->Search(observation, fit, fitter_.unexplained());
   clock_.Lap(Step::kRelocalize);
   if (!found) return fit;
   history_ = AtRest(found->pose);

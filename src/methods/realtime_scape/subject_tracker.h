@@ -37,7 +37,7 @@ class SubjectTracker {
   Model model_;
   Observer observer_;
   PoseFitter fitter_;
-  LimbFinder limb_finder_;
+  std::optional<LimbFinder> limb_finder_;  // if the settings ask for it
   Relocalizer relocalizer_;
   LossDetector loss_detector_;
   std::optional<StartSearch> start_search_;
