@@ -159,9 +159,9 @@ int RunCommandLine(int argc, const char* const* argv) {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {
       throw ConfigError(
-          "expected a command: list, synth, import, verify, learn, scan, fit, rig, subject, track, run, "
-          "status, submit, rescore, export, report, index, compare, "
-          "sufficient, regress, schema or explain (--help)");
+          "expected a command: list, synth, import, verify, learn, scan, fit, rig, subject, track, "
+          "run, status, submit, rescore, export, report, index, compare, sufficient, regress, "
+          "schema or explain (--help)");
     }
     if (std::fflush(stdout) != 0) FailToWrite("standard output", errno);
     return static_cast<int>(ExitCode::kSuccess);

@@ -25,7 +25,8 @@ struct SubjectArguments {
 
 void MakeSubject(const SubjectArguments& a) {
   const KnownAttributes known = a.person.Known();
-  if (!known.height_m) throw ConfigError("subject: expected --height, the person's height in metres");
+  if (!known.height_m)
+    throw ConfigError("subject: expected --height, the person's height in metres");
   const ShapeSpace space = ReadShapeSpace(a.space);
   const SizedShape shape = ShapeOfSize(space, known, space.components(), kMostUnusual);
   BodyModel body = SizedBody(space, shape, known.sex);
@@ -40,10 +41,11 @@ void MakeSubject(const SubjectArguments& a) {
                        {"build", Provenance()}};
   WriteWholeFile(folder.path() / "provenance.json", record.dump(2) + "\n");
   folder.Commit();
-  fmt::print("{:.2f} m, {:.1f} kg; {:.1f} standard deviations from the space's mean, scaled by "
-             "{:.3f}\n{}\n",
-             body.attributes.height_m, body.attributes.weight_kg, shape.theta.norm(), shape.scale,
-             a.output.string());
+  fmt::print(
+      "{:.2f} m, {:.1f} kg; {:.1f} standard deviations from the space's mean, scaled by "
+      "{:.3f}\n{}\n",
+      body.attributes.height_m, body.attributes.weight_kg, shape.theta.norm(), shape.scale,
+      a.output.string());
 }
 
 }  // namespace

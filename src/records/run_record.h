@@ -59,8 +59,8 @@ struct RunRecord {
 
     void Describe(Fields& fields);
   };
-  std::vector<Step> steps;      // per frame, in the method's order
-  double diagonal_m = kAbsent;  // of the true subject's rest-pose bounding box
+  std::vector<Step> steps;            // per frame, in the method's order
+  double diagonal_m = kAbsent;        // of the true subject's rest-pose bounding box
   std::vector<std::string> warnings;  // of the sequence's making and of its verification
 
   void Describe(Fields& fields);

@@ -40,9 +40,9 @@ std::vector<Row> Starts() {
     last_mm.push_back(1e3 * r.last_error_m);
     ms.push_back(r.first_ms);
     if (r.found && !r.swapped && r.first_error_m <= kFoundWithin_m) continue;
-    fmt::print("{}, {}, heading {:.0f}: {:.0f} mm, {:.0f} mm after {} frames{}{}; {}\n", person.name,
-               posture.name, trial.heading_deg, first_mm.back(), last_mm.back(), kFrames,
-               r.found ? "" : ", not found", r.swapped ? ", left and right swapped" : "",
+    fmt::print("{}, {}, heading {:.0f}: {:.0f} mm, {:.0f} mm after {} frames{}{}; {}\n",
+               person.name, posture.name, trial.heading_deg, first_mm.back(), last_mm.back(),
+               kFrames, r.found ? "" : ", not found", r.swapped ? ", left and right swapped" : "",
                r.message);
   }
   return {{"starts_found", ShareOf(results, [](const StartResult& r) { return r.found; }), "%"},
