@@ -16,7 +16,6 @@ enum class EnergyTerm {
   kFreeSpace,  // this and those below: ours
   kLimit,
   kPrior,
-  kRest,
   kCount
 };
 inline constexpr auto kEnergyTermCount = static_cast<std::size_t>(EnergyTerm::kCount);

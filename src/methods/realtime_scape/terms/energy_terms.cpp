@@ -8,7 +8,6 @@
 #include "methods/realtime_scape/terms/joint_term.h"
 #include "methods/realtime_scape/terms/limit_term.h"
 #include "methods/realtime_scape/terms/prior_term.h"
-#include "methods/realtime_scape/terms/rest_term.h"
 
 namespace vitruvia::realtime_scape {
 namespace {
@@ -85,12 +84,6 @@ const std::array<TermEntry, kEnergyTermCount>& Terms() {
                       "motion, per squared standard deviation"),
        [](const TermInput& in, double weight, BlockNormalEquations& equations) {
          AddPriorTerm(in.pose, weight, equations);
-       }},
-      {EnergyTerm::kRest, "rest", "rest_weight", 0.0,
-       AboutOwnWeight("weight of the term that draws every joint to the T-pose, per squared "
-                      "radian"),
-       [](const TermInput& in, double weight, BlockNormalEquations& equations) {
-         AddRestTerm(in.pose, weight, equations);
        }},
   }};
   return terms;
