@@ -101,7 +101,6 @@ void SummarizeRun(const SequenceInfo& info, RunRecord& record) {
   row["frame_ms_p95"] = Quantile(frame_ms, 0.95);
   row["frame_ms_max"] = Maximum(frame_ms);
   row["iterations_mean"] = Mean(f.at("iterations"));
-  row["iterations_max"] = Maximum(f.at("iterations"));
   if (!record.variant.empty()) row["case"] = record.variant;
   if (const std::string missing = NotScored(info); !missing.empty()) row["not_scored"] = missing;
   SummarizeHealth(record, row);
