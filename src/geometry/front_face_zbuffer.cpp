@@ -1,9 +1,62 @@
 #include "geometry/front_face_zbuffer.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <bit>
+#include <limits>
+
+#include "math/lanes.h"
 
 namespace vitruvia {
+namespace {
+
+struct BoxLanes {  // of pixel centres, both ends included
+  FloatLanes left, top, right, bottom;
+};
+
+}  // namespace
+
+// Eight triangles side by side.
+struct FrontFaceZBuffer::TriangleLanes {
+  struct CornerLanes {
+    FloatLanes u, v, inverse_z;
+  };
+  CornerLanes a, b, c;
+
+  TriangleLanes(const std::vector<Corner>& corners, const Triangle* triangles) {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      Set(lane, corners[triangles[lane][0]], a);
+      Set(lane, corners[triangles[lane][1]], b);
+      Set(lane, corners[triangles[lane][2]], c);
+    }
+  }
+
+  // Twice the area. Seen from outside the corners run counter-clockwise and the image's v points
+  // down: negative for front faces.
+  FloatLanes Area() const { return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u); }
+
+  // Clipped before they are rounded: far outside the image the numbers do not fit an int.
+  BoxLanes Boxes(const PinholeCamera& camera) const {
+    const auto width = static_cast<float>(camera.width), height = static_cast<float>(camera.height);
+    const auto low = [](const FloatLanes& x, float end) {
+      return Ceil(Min(Max(x, FloatLanes{}), FloatLanes{} + end));
+    };
+    const auto high = [](const FloatLanes& x, float end) {
+      return Floor(Max(Min(x, FloatLanes{} + (end - 1.0f)), FloatLanes{} - 1.0f));
+    };
+    return {.left = low(Min(Min(a.u, b.u), c.u), width),
+            .top = low(Min(Min(a.v, b.v), c.v), height),
+            .right = high(Max(Max(a.u, b.u), c.u), width),
+            .bottom = high(Max(Max(a.v, b.v), c.v), height)};
+  }
+
+ private:
+  static void Set(int lane, const Corner& corner, CornerLanes& lanes) {
+    lanes.u[lane] = corner.u;
+    lanes.v[lane] = corner.v;
+    lanes.inverse_z[lane] = corner.inverse_z;
+  }
+};
 
 FrontFaceZBuffer::FrontFaceZBuffer(const PinholeCamera& camera, float near_m)
     : camera_(camera), near_m_(near_m), depth_(camera.width, camera.height) {}
@@ -11,73 +64,92 @@ FrontFaceZBuffer::FrontFaceZBuffer(const PinholeCamera& camera, float near_m)
 const DepthImage& FrontFaceZBuffer::Render(const std::vector<Vector3f>& vertices_in_camera,
                                            const std::vector<Triangle>& triangles) & {
   Clear(drawn_);
-  drawn_ = Project(vertices_in_camera);
-  if (drawn_.empty()) return depth_;
-  // The buffer holds 1/z while triangles are drawn (larger is nearer, 0 is empty).
-  for (const Triangle& t : triangles) {
-    const Corner &a = corners_[t[0]], &b = corners_[t[1]], &c = corners_[t[2]];
-    // Seen from outside the corners run counter-clockwise; the image's v points down.
-    const float area = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
-    if (area < 0.0f) DrawFrontFace(a, b, c);
-  }
+  Project(vertices_in_camera);
+  CollectFrontFaces(triangles);
+  drawn_ = DrawFrontFaces();
   Invert(drawn_);
   return depth_;
 }
 
-FrontFaceZBuffer::Box FrontFaceZBuffer::Project(const std::vector<Vector3f>& vertices_in_camera) {
+void FrontFaceZBuffer::Project(const std::vector<Vector3f>& vertices_in_camera) {
   corners_.resize(vertices_in_camera.size());
   const auto fx = static_cast<float>(camera_.fx), fy = static_cast<float>(camera_.fy);
   const auto cx = static_cast<float>(camera_.cx), cy = static_cast<float>(camera_.cy);
-  const auto last_u = static_cast<float>(camera_.width - 1);
-  const auto last_v = static_cast<float>(camera_.height - 1);
-  float low_u = last_u + 1.0f, low_v = last_v + 1.0f, high_u = -1.0f, high_v = -1.0f;
   for (std::size_t i = 0; i < vertices_in_camera.size(); ++i) {
     const Vector3f& p = vertices_in_camera[i];
-    const float inverse_z = p.z() > near_m_ ? 1.0f / p.z() : 0.0f;
-    const Corner corner{fx * p.x() * inverse_z + cx, fy * p.y() * inverse_z + cy, inverse_z};
-    corners_[i] = corner;
-    low_u = std::min(low_u, corner.u);
-    high_u = std::max(high_u, corner.u);
-    low_v = std::min(low_v, corner.v);
-    high_v = std::max(high_v, corner.v);
+    const float reciprocal = 1.0f / p.z();
+    const float inverse_z = p.z() > near_m_ ? reciprocal : 0.0f;
+    corners_[i] = {fx * p.x() * inverse_z + cx, fy * p.y() * inverse_z + cy, inverse_z};
   }
-  // Clipped as floats: far outside the image the numbers do not fit an int.
-  return {static_cast<int>(std::max(low_u, 0.0f)), static_cast<int>(std::max(low_v, 0.0f)),
-          static_cast<int>(std::min(std::max(high_u, -1.0f), last_u)),
-          static_cast<int>(std::min(std::max(high_v, -1.0f), last_v))};
 }
 
-void FrontFaceZBuffer::DrawFrontFace(const Corner& a, const Corner& b, const Corner& c) {
-  // Pixel centres inside the bounding box; most triangles of a body mesh cover none or one.
-  const auto last_u = static_cast<float>(camera_.width - 1);
-  const auto last_v = static_cast<float>(camera_.height - 1);
-  const float low_u = std::max(std::ceil(std::min(std::min(a.u, b.u), c.u)), 0.0f);
-  const float high_u = std::min(std::floor(std::max(std::max(a.u, b.u), c.u)), last_u);
-  const float low_v = std::max(std::ceil(std::min(std::min(a.v, b.v), c.v)), 0.0f);
-  const float high_v = std::min(std::floor(std::max(std::max(a.v, b.v), c.v)), last_v);
-  if (!(low_u <= high_u) || !(low_v <= high_v)) return;
-  if (a.inverse_z <= 0.0f || b.inverse_z <= 0.0f || c.inverse_z <= 0.0f) return;
+void FrontFaceZBuffer::CollectFrontFaces(const std::vector<Triangle>& triangles) {
+  front_faces_.resize(std::max(front_faces_.size(), triangles.size() + kLanes));
+  std::size_t count = 0;
+  const auto collect = [&](const Triangle* group) {
+    const TriangleLanes lanes(corners_, group);
+    const BoxLanes boxes = lanes.Boxes(camera_);
+    const FloatLanes farthest = Min(Min(lanes.a.inverse_z, lanes.b.inverse_z), lanes.c.inverse_z);
+    const IntLanes drawn = (lanes.Area() < 0.0f) & (boxes.left <= boxes.right) &
+                           (boxes.top <= boxes.bottom) & (farthest > 0.0f);
+    for (unsigned left = Bits(drawn); left != 0; left &= left - 1) {
+      front_faces_[count++] = group[std::countr_zero(left)];
+    }
+  };
+  // Lanes that remain are filled with the last triangle: to draw one twice changes nothing.
+  std::size_t i = 0;
+  for (; i + kLanes <= triangles.size(); i += kLanes) collect(&triangles[i]);
+  if (i < triangles.size()) {
+    std::array<Triangle, kLanes> rest;
+    rest.fill(triangles.back());
+    std::copy(triangles.begin() + static_cast<std::ptrdiff_t>(i), triangles.end(), rest.begin());
+    collect(rest.data());
+  }
+  while (count % kLanes != 0) {
+    front_faces_[count] = front_faces_[count - 1];
+    ++count;
+  }
+  front_face_count_ = count;
+}
 
-  // Barycentric coordinates and 1/z are affine in the pixel.
-  const float area = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
-  const float inverse_area = 1.0f / area;
-  const float b_du = (c.v - a.v) * inverse_area, b_dv = -(c.u - a.u) * inverse_area;
-  const float c_du = -(b.v - a.v) * inverse_area, c_dv = (b.u - a.u) * inverse_area;
-  const int first_u = static_cast<int>(low_u), end_u = static_cast<int>(high_u);
-  for (int v = static_cast<int>(low_v); v <= static_cast<int>(high_v); ++v) {
-    const float dv = static_cast<float>(v) - a.v;
-    float* row = &depth_(0, v);
-    for (int u = first_u; u <= end_u; ++u) {
-      const float du = static_cast<float>(u) - a.u;
-      const float weight_b = du * b_du + dv * b_dv;
-      const float weight_c = du * c_du + dv * c_dv;
-      const float weight_a = 1.0f - weight_b - weight_c;
-      if (std::min(std::min(weight_a, weight_b), weight_c) < 0.0f) continue;
-      const float inverse_z =
+// Returns the box of what was drawn. The buffer holds 1/z meanwhile (larger is nearer, 0 is empty).
+FrontFaceZBuffer::Box FrontFaceZBuffer::DrawFrontFaces() {
+  Box drawn{camera_.width, camera_.height, -1, -1};
+  float* pixels = depth_.pixels().data();
+  for (std::size_t i = 0; i < front_face_count_; i += kLanes) {
+    const TriangleLanes lanes(corners_, &front_faces_[i]);
+    const auto& [a, b, c] = lanes;
+    const BoxLanes boxes = lanes.Boxes(camera_);
+    drawn.left = std::min(drawn.left, static_cast<int>(SmallestLane(boxes.left)));
+    drawn.top = std::min(drawn.top, static_cast<int>(SmallestLane(boxes.top)));
+    drawn.right = std::max(drawn.right, static_cast<int>(-SmallestLane(-boxes.right)));
+    drawn.bottom = std::max(drawn.bottom, static_cast<int>(-SmallestLane(-boxes.bottom)));
+    // Barycentric coordinates and 1/z are affine in the pixel.
+    const FloatLanes inverse_area = 1.0f / lanes.Area();
+    const FloatLanes b_du = (c.v - a.v) * inverse_area, b_dv = -(c.u - a.u) * inverse_area;
+    const FloatLanes c_du = -(b.v - a.v) * inverse_area, c_dv = (b.u - a.u) * inverse_area;
+    // Each lane walks through the pixels of its own box, row by row.
+    FloatLanes u = boxes.left, v = boxes.top;
+    for (IntLanes walking = v <= boxes.bottom; Bits(walking) != 0; walking = v <= boxes.bottom) {
+      const FloatLanes du = u - a.u, dv = v - a.v;
+      const FloatLanes weight_b = du * b_du + dv * b_dv;
+      const FloatLanes weight_c = du * c_du + dv * c_dv;
+      const FloatLanes weight_a = 1.0f - weight_b - weight_c;
+      const FloatLanes inverse_z =
           weight_a * a.inverse_z + weight_b * b.inverse_z + weight_c * c.inverse_z;
-      row[u] = std::max(row[u], inverse_z);
+      const IntLanes pixel = Truncate(v) * camera_.width + Truncate(u);
+      const IntLanes inside = walking & (Min(Min(weight_a, weight_b), weight_c) >= 0.0f);
+      for (unsigned left = Bits(inside); left != 0; left &= left - 1) {
+        const int lane = std::countr_zero(left);
+        pixels[pixel[lane]] = std::max(pixels[pixel[lane]], inverse_z[lane]);
+      }
+      u += 1.0f;
+      const IntLanes row_ends = u > boxes.right;
+      u = row_ends ? boxes.left : u;
+      v = row_ends ? v + 1.0f : v;
     }
   }
+  return drawn;
 }
 
 void FrontFaceZBuffer::Clear(const Box& box) {
@@ -89,7 +161,10 @@ void FrontFaceZBuffer::Clear(const Box& box) {
 void FrontFaceZBuffer::Invert(const Box& box) {
   for (int v = box.top; v <= box.bottom; ++v) {
     float* row = &depth_(0, v);
-    for (int u = box.left; u <= box.right; ++u) row[u] = row[u] > 0.0f ? 1.0f / row[u] : 0.0f;
+    for (int u = box.left; u <= box.right; ++u) {
+      const float z = 1.0f / row[u];  // infinite where nothing was drawn
+      row[u] = z <= std::numeric_limits<float>::max() ? z : 0.0f;
+    }
   }
 }
 

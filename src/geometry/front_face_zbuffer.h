@@ -1,9 +1,10 @@
 // A quick z-buffer of closed meshes: what a camera outside sees of them is their front faces.
 //
-// Gives the picture of ZBuffer, which is its reference, at a fraction of the time: back faces are
-// dropped before anything is computed, and only the rows and columns that the mesh covers are
-// cleared and read. Pictures differ where a mesh cuts through itself and its inside shows, and
-// where rounding decides about a pixel on a silhouette.
+// Gives the picture of ZBuffer, which is its reference, at a fraction of the time: eight triangles
+// are culled and then drawn side by side, one pixel of each at a time, which suits meshes whose
+// triangles cover a few pixels each; and only the rows and columns that the mesh covers are cleared
+// and read. Pictures differ where a mesh cuts through itself and its inside shows, and where
+// rounding decides about a pixel on a silhouette.
 #pragma once
 
 #include "geometry/mesh_rasterizer.h"
@@ -26,11 +27,12 @@ class FrontFaceZBuffer final : public MeshRasterizer {
   };
   struct Box {  // of pixels, both ends included
     int left, top, right, bottom;
-    bool empty() const { return left > right || top > bottom; }
   };
+  struct TriangleLanes;
 
-  Box Project(const std::vector<Vector3f>& vertices_in_camera);
-  void DrawFrontFace(const Corner& a, const Corner& b, const Corner& c);
+  void Project(const std::vector<Vector3f>& vertices_in_camera);
+  void CollectFrontFaces(const std::vector<Triangle>& triangles);
+  Box DrawFrontFaces();
   void Clear(const Box& box);
   void Invert(const Box& box);
 
@@ -39,6 +41,9 @@ class FrontFaceZBuffer final : public MeshRasterizer {
   DepthImage depth_;
   Box drawn_{0, 0, -1, -1};  // what is not empty in depth_
   std::vector<Corner> corners_;
+  // The front faces whose boxes hold a pixel centre: the first front_face_count_, whole lanes.
+  std::vector<Triangle> front_faces_;
+  std::size_t front_face_count_ = 0;
 };
 
 }  // namespace vitruvia

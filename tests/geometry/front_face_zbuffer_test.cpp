@@ -64,6 +64,36 @@ TEST(FrontFaceZBuffer, DrawsWhatTheReferenceDraws) {
   }
 }
 
+// Eight triangles are drawn side by side; counts in between must not lose or invent one.
+TEST(FrontFaceZBuffer, DrawsAnyNumberOfTriangles) {
+  ZBuffer reference(kCamera);
+  FrontFaceZBuffer quick(kCamera);
+  RandomStream random(1, "slips");
+  const auto coordinate = [&](double size) {
+    return static_cast<float>(random.Uniform(-size, size));
+  };
+  for (int count = 0; count <= 25; ++count) {
+    TriangleMesh slips;
+    for (int i = 0; i < count; ++i) {
+      // From less than a pixel to a third of the image, some of them partly or wholly outside.
+      const double size = 0.002 * std::pow(2.0, random.Uniform(0.0, 8.0));
+      const Vector3f center(coordinate(1.5), coordinate(1.2), 2.5f + coordinate(0.5));
+      std::array<Vector3f, 3> corners;
+      for (Vector3f& p : corners) {
+        p = center + Vector3f(coordinate(size), coordinate(size), coordinate(size));
+      }
+      const Vector3f normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+      if (normal.dot(corners[0]) > 0.0f) std::swap(corners[1], corners[2]);  // front faces
+      const int first = 3 * i;
+      slips.vertices.insert(slips.vertices.end(), corners.begin(), corners.end());
+      slips.triangles.push_back({first, first + 1, first + 2});
+    }
+    EXPECT_EQ(quick.Render(slips.vertices, slips.triangles).pixels(),
+              reference.Render(slips.vertices, slips.triangles).pixels())
+        << count << " triangles";
+  }
+}
+
 TEST(FrontFaceZBuffer, ForgetsTheFrameBefore) {
   FrontFaceZBuffer zbuffer(kCamera), fresh(kCamera);
   const TriangleMesh left = Ball({-0.5f, 0.0f, 2.0f}, 0.3f, 12);

@@ -13,22 +13,6 @@ constexpr float kNearest_m = 0.05f;    // vertices nearer to the camera are not 
 constexpr float kRounding_px = 1e-2f;  // the search goes that much farther than exact numbers ask
 constexpr int kPointsPerRange = 512;
 
-// The smallest of eight lanes.
-template <class Eight>
-auto Smallest(const Eight& v) {
-  const auto least = [](const Eight& a, const Eight& b) { return a < b ? a : b; };
-  const Eight four = least(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3));
-  const Eight two = least(four, __builtin_shufflevector(four, four, 2, 3, 0, 1, 6, 7, 4, 5));
-  return least(two, __builtin_shufflevector(two, two, 1, 0, 3, 2, 5, 4, 7, 6))[0];
-}
-
-template <class Eight, class Scalar>
-Eight EightFrom(const std::vector<Scalar>& column, int first) {
-  Eight eight;
-  std::memcpy(&eight, &column[first], sizeof eight);
-  return eight;
-}
-
 void FillRays(double focal_px, double center_px, int window_px, std::vector<float>& rays) {
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const double off = std::abs(static_cast<double>(i) - center_px) + window_px + 0.5;
@@ -59,28 +43,28 @@ void Association::ProjectPatch(int patch, const Surface<float>& surface,
   const auto width = static_cast<float>(camera_.width), height = static_cast<float>(camera_.height);
   const float cosine_squared = limits.facing_cosine * limits.facing_cosine;
   const int begin = layout_->patches[patch].begin, end = layout_->patches[patch].end;
-  Ints lowest = Ints{} + std::numeric_limits<int>::max(), highest = Ints{} - 1;
+  IntLanes lowest = IntLanes{} + std::numeric_limits<int>::max(), highest = IntLanes{} - 1;
   for (int slot = begin; slot < end; slot += kLanes) {
-    const auto x = EightFrom<Floats>(surface.posed.x, slot),
-               y = EightFrom<Floats>(surface.posed.y, slot),
-               z = EightFrom<Floats>(surface.posed.z, slot);
-    const auto nx = EightFrom<Floats>(surface.normals.x, slot),
-               ny = EightFrom<Floats>(surface.normals.y, slot),
-               nz = EightFrom<Floats>(surface.normals.z, slot);
-    const Floats inverse_z = 1.0f / z;
-    const Floats u = fx * x * inverse_z + cx + 0.5f, v = fy * y * inverse_z + cy + 0.5f;
-    const Floats towards = -(nx * x + ny * y + nz * z);
-    const Floats square = x * x + y * y + z * z;
+    const auto x = LoadLanes<FloatLanes>(surface.posed.x, slot),
+               y = LoadLanes<FloatLanes>(surface.posed.y, slot),
+               z = LoadLanes<FloatLanes>(surface.posed.z, slot);
+    const auto nx = LoadLanes<FloatLanes>(surface.normals.x, slot),
+               ny = LoadLanes<FloatLanes>(surface.normals.y, slot),
+               nz = LoadLanes<FloatLanes>(surface.normals.z, slot);
+    const FloatLanes inverse_z = 1.0f / z;
+    const FloatLanes u = fx * x * inverse_z + cx + 0.5f, v = fy * y * inverse_z + cy + 0.5f;
+    const FloatLanes towards = -(nx * x + ny * y + nz * z);
+    const FloatLanes square = x * x + y * y + z * z;
     // A slot that was filled up has a normal of zero, so it faces nothing.
-    const Ints usable = (z > kNearest_m) & (towards > 0.0f) &
-                        (towards * towards > cosine_squared * square) & (u >= 0.0f) & (v >= 0.0f) &
-                        (u < width) & (v < height);
+    const IntLanes usable = (z > kNearest_m) & (towards > 0.0f) &
+                            (towards * towards > cosine_squared * square) & (u >= 0.0f) &
+                            (v >= 0.0f) & (u < width) & (v < height);
     // What is not usable may be too large for an integer.
-    const Ints column = __builtin_convertvector(usable ? u : Floats{}, Ints);
-    const Ints row = __builtin_convertvector(usable ? v : Floats{}, Ints);
-    const Ints pixel = usable ? row * camera_.width + column : Ints{} - 1;
+    const IntLanes column = __builtin_convertvector(usable ? u : FloatLanes{}, IntLanes);
+    const IntLanes row = __builtin_convertvector(usable ? v : FloatLanes{}, IntLanes);
+    const IntLanes pixel = usable ? row * camera_.width + column : IntLanes{} - 1;
     std::memcpy(&pixels_[slot], &pixel, sizeof pixel);
-    const Ints candidate = usable ? pixel : lowest;
+    const IntLanes candidate = usable ? pixel : lowest;
     lowest = candidate < lowest ? candidate : lowest;
     highest = pixel > highest ? pixel : highest;
   }
@@ -90,7 +74,7 @@ void Association::ProjectPatch(int patch, const Surface<float>& surface,
     facing_[begin + count] = slot;
     count += pixels_[slot] >= 0 ? 1 : 0;
   }
-  views_[patch] = {count, Smallest(lowest), -Smallest(-highest)};
+  views_[patch] = {count, SmallestLane(lowest), -SmallestLane(-highest)};
 }
 
 // Calls body(slot, pixel) for the facing slots whose pixels are begin … end, patch after patch.
@@ -172,14 +156,14 @@ inline void Association::ScanRow(const Vector3f& point, int row, int first_colum
   const int at = row * camera_.width;
   const int begin = bucket_begin_[at + std::max(first_column, 0)];
   const int end = bucket_begin_[at + std::min(last_column, camera_.width - 1) + 1];
-  constexpr Ints kLaneIndex = {0, 1, 2, 3, 4, 5, 6, 7};
+  constexpr IntLanes kLaneIndex = {0, 1, 2, 3, 4, 5, 6, 7};
   for (int first = begin; first < end; first += kLanes) {
-    const Floats dx = EightFrom<Floats>(sorted_.x, first) - point.x();
-    const Floats dy = EightFrom<Floats>(sorted_.y, first) - point.y();
-    const Floats dz = EightFrom<Floats>(sorted_.z, first) - point.z();
-    const auto slots = EightFrom<Ints>(sorted_slots_, first);
-    const Floats squared = dx * dx + dy * dy + dz * dz;
-    const Ints better =
+    const FloatLanes dx = LoadLanes<FloatLanes>(sorted_.x, first) - point.x();
+    const FloatLanes dy = LoadLanes<FloatLanes>(sorted_.y, first) - point.y();
+    const FloatLanes dz = LoadLanes<FloatLanes>(sorted_.z, first) - point.z();
+    const auto slots = LoadLanes<IntLanes>(sorted_slots_, first);
+    const FloatLanes squared = dx * dx + dy * dy + dz * dz;
+    const IntLanes better =
         (kLaneIndex < end - first) &
         ((squared < best.squared) | ((squared == best.squared) & (slots < best.slot)));
     best.squared = better ? squared : best.squared;
@@ -194,10 +178,10 @@ int Association::NearestTo(const Vector3f& point, int pixel,
   const int column = pixel % camera_.width, row = pixel / camera_.width;
   const float px_per_m = std::max(column_ray_[column], row_ray_[row]) / point.z();
   Best best;
-  best.squared = Floats{} + limits.cutoff_m * limits.cutoff_m;
-  best.slot = Ints{} - 1;  // a vertex exactly at the cutoff is not taken
+  best.squared = FloatLanes{} + limits.cutoff_m * limits.cutoff_m;
+  best.slot = IntLanes{} - 1;  // a vertex exactly at the cutoff is not taken
   const auto radius = [&] {
-    const float nearest = std::sqrt(Smallest(best.squared));
+    const float nearest = std::sqrt(SmallestLane(best.squared));
     return static_cast<int>(
         std::min(static_cast<float>(limits.window_px), nearest * px_per_m + 0.5f + kRounding_px));
   };
@@ -213,8 +197,9 @@ int Association::NearestTo(const Vector3f& point, int pixel,
     reach = radius();
   }
   // Lanes that found nothing hold the cutoff and −1.
-  const float squared = Smallest(best.squared);
-  return Smallest(best.squared == squared ? best.slot : Ints{} + std::numeric_limits<int>::max());
+  const float squared = SmallestLane(best.squared);
+  return SmallestLane(best.squared == squared ? best.slot
+                                              : IntLanes{} + std::numeric_limits<int>::max());
 }
 
 void Association::FindNearest(const PointCloud& cloud, const AssociationLimits& limits,

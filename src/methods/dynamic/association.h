@@ -8,6 +8,7 @@
 #include "core/worker_team.h"
 #include "geometry/camera.h"
 #include "geometry/point_cloud.h"
+#include "math/lanes.h"
 #include "methods/dynamic/surface.h"
 
 namespace vitruvia::dynamic {
@@ -65,14 +66,10 @@ class Association {
   const std::vector<int>& nearest() const { return nearest_; }  // per point: a slot or −1
 
  private:
-  // Eight numbers as the processor holds them (an extension of GCC and Clang): compared and chosen
-  // from lane by lane, which Eigen 3.4 does one by one.
-  using Floats = float __attribute__((vector_size(sizeof(float) * kLanes)));
-  using Ints = int __attribute__((vector_size(sizeof(int) * kLanes)));
   // The best so far in each lane of a search.
   struct Best {
-    Floats squared;
-    Ints slot;
+    FloatLanes squared;
+    IntLanes slot;
   };
   // What the camera sees of a patch: how many slots have a pixel, and between which.
   struct PatchView {

@@ -12,11 +12,11 @@
 #include <Eigen/Core>
 
 #include "body/skinning.h"
+#include "math/lanes.h"
 #include "methods/dynamic/kinematic_tree.h"
 
 namespace vitruvia::dynamic {
 
-inline constexpr int kLanes = 8;
 template <class Scalar>
 using Lanes = Eigen::Array<Scalar, kLanes, 1>;
 

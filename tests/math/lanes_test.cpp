@@ -1,0 +1,33 @@
+#include "math/lanes.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace vitruvia {
+namespace {
+
+constexpr FloatLanes kNumbers = {-2.5f, -2.0f, -0.0f, 0.25f, 1.0f, 1.75f, 3e5f, -7.0f};
+
+TEST(Lanes, RoundLikeTheStandardLibrary) {
+  const FloatLanes floor = Floor(kNumbers), ceil = Ceil(kNumbers);
+  const IntLanes truncated = Truncate(kNumbers);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    EXPECT_EQ(floor[lane], std::floor(kNumbers[lane]));
+    EXPECT_EQ(ceil[lane], std::ceil(kNumbers[lane]));
+    EXPECT_EQ(truncated[lane], static_cast<int>(kNumbers[lane]));
+  }
+}
+
+TEST(Lanes, GiveMasksExtremesAndLoads) {
+  EXPECT_EQ(Bits(kNumbers < 0.0f), 0b10000011u);
+  EXPECT_EQ(Bits(Max(kNumbers, FloatLanes{}) == 0.0f), 0b10000111u);
+  EXPECT_EQ(Bits(Min(kNumbers, FloatLanes{}) == 0.0f), 0b01111100u);
+  EXPECT_EQ(SmallestLane(kNumbers), -7.0f);
+  const std::vector<int> column = {9, 8, 7, 6, 5, 4, 3, 2, 1, 0};
+  const auto loaded = LoadLanes<IntLanes>(column, 2);
+  for (int lane = 0; lane < kLanes; ++lane) EXPECT_EQ(loaded[lane], 7 - lane);
+}
+
+}  // namespace
+}  // namespace vitruvia
