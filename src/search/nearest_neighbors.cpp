@@ -1,8 +1,8 @@
 #include "search/nearest_neighbors.h"
 
-#include <array>
 #include <limits>
 
+#include "math/lanes.h"
 #include "search/pixel_grid.h"
 
 namespace vitruvia {
@@ -22,12 +22,12 @@ class KdTreeNeighbors final : public NearestNeighbors {
   KdTree tree_;
 };
 
-// Coordinates in three arrays, filled up to whole groups with points far away.
+// Coordinates in three columns, filled up to whole lanes with points far away.
 class ExhaustiveNeighbors final : public NearestNeighbors {
  public:
   void Build(const std::vector<Vector3f>& points) override {
-    const std::size_t groups = (points.size() + kGroup - 1) / kGroup;
-    x_.assign(groups * kGroup, kFarAway);
+    const std::size_t groups = (points.size() + kLanes - 1) / kLanes;
+    x_.assign(groups * kLanes, kFarAway);
     y_ = z_ = x_;
     for (std::size_t i = 0; i < points.size(); ++i) {
       x_[i] = points[i].x();
@@ -45,30 +45,24 @@ class ExhaustiveNeighbors final : public NearestNeighbors {
   }
 
  private:
-  static constexpr std::size_t kGroup = 8;
-
   // Each lane keeps its own nearest; the lanes are compared at the end.
   KdTree::Neighbor Nearest(const Vector3f& query, float max_squared) const {
-    std::array<float, kGroup> best;
-    std::array<std::int32_t, kGroup> where;
-    best.fill(std::numeric_limits<float>::infinity());
-    where.fill(-1);
-    for (std::size_t i = 0; i < x_.size(); i += kGroup) {
-      for (std::size_t k = 0; k < kGroup; ++k) {
-        const float dx = x_[i + k] - query.x(), dy = y_[i + k] - query.y();
-        const float dz = z_[i + k] - query.z();
-        const float squared = dx * dx + dy * dy + dz * dz;
-        where[k] = squared < best[k] ? static_cast<std::int32_t>(i + k) : where[k];
-        best[k] = squared < best[k] ? squared : best[k];
-      }
+    FloatLanes best = FloatLanes{} + std::numeric_limits<float>::infinity();
+    IntLanes best_index = IntLanes{} - 1, index = {0, 1, 2, 3, 4, 5, 6, 7};
+    const int count = static_cast<int>(x_.size());
+    for (int i = 0; i < count; i += kLanes, index += kLanes) {
+      const FloatLanes dx = LoadLanes<FloatLanes>(x_, i) - query.x();
+      const FloatLanes dy = LoadLanes<FloatLanes>(y_, i) - query.y();
+      const FloatLanes dz = LoadLanes<FloatLanes>(z_, i) - query.z();
+      const FloatLanes squared = dx * dx + dy * dy + dz * dz;
+      const IntLanes nearer = squared < best;
+      best = nearer ? squared : best;
+      best_index = nearer ? index : best_index;
     }
-    KdTree::Neighbor nearest{-1, std::numeric_limits<float>::infinity()};
-    for (std::size_t k = 0; k < kGroup; ++k) {
-      const bool wins = best[k] < nearest.squared_distance ||
-                        (best[k] == nearest.squared_distance && where[k] < nearest.index);
-      if (where[k] >= 0 && wins) nearest = {where[k], best[k]};
-    }
-    return nearest.squared_distance <= max_squared ? nearest : KdTree::Neighbor{};
+    const float smallest = SmallestLane(best);
+    if (!(smallest <= max_squared)) return {};
+    const IntLanes none = IntLanes{} + std::numeric_limits<std::int32_t>::max();
+    return {SmallestLane(best == smallest ? best_index : none), smallest};
   }
 
   std::vector<float> x_, y_, z_;
