@@ -33,11 +33,12 @@ std::vector<double> Ranks(std::span<const double> values) {
 double Quantile(std::vector<double> values, double share) {
   Require(!values.empty(), "Quantile of an empty sample");
   Require(share >= 0.0 && share <= 1.0, "Quantile: share {} is not in [0, 1]", share);
-  std::sort(values.begin(), values.end());
   const double place = share * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(std::floor(place));
-  const std::size_t above = std::min(below + 1, values.size() - 1);
-  return values[below] + (place - std::floor(place)) * (values[above] - values[below]);
+  const auto below = values.begin() + static_cast<std::ptrdiff_t>(std::floor(place));
+  std::nth_element(values.begin(), below, values.end());
+  const double above =
+      below + 1 == values.end() ? *below : *std::min_element(below + 1, values.end());
+  return *below + (place - std::floor(place)) * (above - *below);
 }
 
 double MeanOrAbsent(std::span<const double> values) {

@@ -1,6 +1,5 @@
 #include "scoring/surface_score.h"
 
-#include <algorithm>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -62,8 +61,7 @@ class TurnWatch {
   std::vector<BoneRotations> estimate_, truth_;
 };
 
-void RecordQuantiles(std::vector<double> errors_m, RunRecord& record) {
-  std::sort(errors_m.begin(), errors_m.end());  // once for all
+void RecordQuantiles(const std::vector<double>& errors_m, RunRecord& record) {
   record.frames["l2_median_m"].push_back(Quantile(errors_m, 0.5));
   record.frames["l2_p95_m"].push_back(Quantile(errors_m, 0.95));
   record.frames["l2_p99_m"].push_back(Quantile(errors_m, 0.99));
