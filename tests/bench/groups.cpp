@@ -5,6 +5,7 @@
 namespace vitruvia::bench {
 
 std::vector<Row> FitShape();
+std::vector<Row> Growth();
 std::vector<Row> ImportDepth();
 std::vector<Row> LearnWeights();
 std::vector<Row> Scan();
@@ -13,6 +14,7 @@ std::vector<Row> Starts();
 std::span<const Group> Groups() {
   static constexpr std::array kGroups = {
       Group{"fit_shape", FitShape},
+      Group{"growth", Growth},
       Group{"import_depth", ImportDepth},
       Group{"learn_weights", LearnWeights},
       Group{"scan", Scan},
