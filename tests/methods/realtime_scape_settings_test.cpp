@@ -153,6 +153,7 @@ const std::map<std::string, Change>& Changes() {
       {"rotation_update", {"linear_orthonormal"}},
       {"stopping.rotation_step_deg", {0.01}},
       {"stopping.translation_step_m", {1e-5}},
+      {"stopping.energy_decrease", {0.5}},
       {"stopping.max_iterations", {1}},
       {"stopping.first_frame_iterations", {1}},
       {"solver.kind", {"cg"}},

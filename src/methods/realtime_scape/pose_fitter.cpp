@@ -53,7 +53,7 @@ FitSummary PoseFitter::Fit(const Observation& observation, const PoseHistory& hi
     fit.solved = solution.status != SolveStatus::kNotPositiveDefinite && !HasDiverged(step.pose);
     fit.pose = fit.solved ? step.pose : history.last;
     fit.inexact_steps += solution.status == SolveStatus::kInexact ? 1 : 0;
-    fit.converged = fit.solved && IsSmall(step);
+    fit.converged = fit.solved && (IsSmall(step) || IsWorthless(solution.increment));
     Pose(fit.pose);
     if (settings_.solver.watch_energy && fit.solved)
       fit.energy_rise = std::max(fit.energy_rise, EnergyRise(equations_, input_at(fit.pose)));
@@ -175,6 +175,12 @@ double PoseFitter::EnergyRise(const BlockNormalEquations& before, const TermInpu
 bool PoseFitter::IsSmall(const PoseStep& step) const {
   return step.largest_rotation_rad < settings_.stopping.rotation_step_deg * kRadiansPerDegree &&
          step.largest_translation_m < settings_.stopping.translation_step_m;
+}
+
+// The energy is quadratic where it was linearised: the step that solves H x = −g lowers it by −gᵀx.
+bool PoseFitter::IsWorthless(const Eigen::VectorXd& increment) const {
+  const double decrease = -equations_.gradient().dot(increment);
+  return decrease < settings_.stopping.energy_decrease * equations_.energy();
 }
 
 }  // namespace vitruvia::realtime_scape

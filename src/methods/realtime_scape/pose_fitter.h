@@ -80,6 +80,7 @@ class PoseFitter {
   Solution Solve(const BlockNormalEquations& equations);
   double EnergyRise(const BlockNormalEquations& before, const TermInput& after);
   bool IsSmall(const PoseStep& step) const;
+  bool IsWorthless(const Eigen::VectorXd& increment) const;
 
   const Model& model_;
   PinholeCamera camera_;

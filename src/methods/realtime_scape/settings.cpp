@@ -106,6 +106,16 @@ void StoppingSettings::Describe(Fields& f) {
             .max = 10,
             .origin = Origin::kTuned,
             .source = "paper A, sec. 6.2: ε₂ = 0.025; see rotation_step_deg"});
+  f.Number(
+      "energy_decrease", energy_decrease,
+      {.meaning = "iterations stop when the linearised energy promises to fall by less than this "
+                  "share of itself, which under noise is not worth a step; 0: never",
+       .min = 0,
+       .max = 1,
+       .origin = Origin::kTuned,
+       .source =
+           "ablations/stopping: half of the time under noise, errors as with 0; 0.05 and more "
+           "lose a captured walk"});
   f.Integer("max_iterations", max_iterations,
             {.meaning = "maximum number of iterations for a frame",
              .min = 1,

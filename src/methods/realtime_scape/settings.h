@@ -132,6 +132,7 @@ struct LimbSettings {
 struct StoppingSettings {
   double rotation_step_deg = 1.0;
   double translation_step_m = 0.005;
+  double energy_decrease = 0.03;  // share of the energy
   int max_iterations = 7;
   int first_frame_iterations = 30;
   void Describe(Fields& fields);
