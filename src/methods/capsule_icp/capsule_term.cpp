@@ -91,7 +91,7 @@ CapsuleTerm::CapsuleTerm(const Subject& subject, const PinholeCamera& camera,
       capsules_(FitCapsules(subject, settings.capsules.trunk_capsules)),
       samples_(SampleCapsules(capsules_.rest(), settings.capsules.sample_spacing_m)),
       mesh_(Meshed(capsules_.rest())),
-      rasterizer_(MakeRasterizer(Rasterizer::kAllTriangles, camera)),
+      rasterizer_(MakeRasterizer(Rasterizer::kFrontFaces, camera)),
       silhouette_(camera, settings.silhouette.reach_px) {
   const std::vector<Capsule>& rest = capsules_.rest();
   for (int a = 0; a < static_cast<int>(rest.size()); ++a) {
@@ -145,6 +145,7 @@ void CapsuleTerm::MatchPoints(float cutoff_m, WorkerTeam& team) {
   });
 }
 
+// At a pixel that only the observation covers, the nearest capsule is drawn there.
 void CapsuleTerm::MatchPixels(const BoneTransforms& camera_from_rest, float cutoff_m,
                               WorkerTeam& team) {
   vertices_.resize(mesh_.bones.size());
@@ -162,17 +163,30 @@ void CapsuleTerm::MatchPixels(const BoneTransforms& camera_from_rest, float cuto
       for (int column = 0; column < columns; ++column) {
         const int u = column * stride, v = row * stride;
         const float z = rendered(u, v), here = depth(u, v);
-        if (z <= 0.0f || !(here > 0.0f) || u == 0 || v == 0) continue;
-        const Vector3f point = camera_.Unproject(static_cast<float>(u), static_cast<float>(v), z);
-        const int bone = capsules_.rest()[capsules_.FindNearest(point).capsule].bone;
+        if (u == 0 || v == 0 || !(here > 0.0f)) continue;
         rows_[static_cast<std::size_t>(row) * columns + column] =
-            DepthDifferenceRow(camera_, bone, point, here,
-                               {Slope(depth(u - 1, v), here, depth(u + 1, v)),
-                                Slope(depth(u, v - 1), here, depth(u, v + 1))},
-                               cutoff_m);
+            z > 0.0f ? RenderedPixelRow({u, v}, z, cutoff_m)
+                     : ClosestPointRow(capsules_, PointAt({u, v}, here), Vector3f::Zero(), cutoff_m,
+                                       0.0f);
       }
     }
   });
+}
+
+Vector3f CapsuleTerm::PointAt(const Pixel& pixel, float depth_m) const {
+  return camera_.Unproject(static_cast<float>(pixel.u), static_cast<float>(pixel.v), depth_m);
+}
+
+// A pixel off the image's edge.
+DataRow CapsuleTerm::RenderedPixelRow(const Pixel& pixel, float rendered_m, float cutoff_m) const {
+  const auto& [u, v] = pixel;
+  const DepthImage& depth = *observation_.depth;
+  const Vector3f point = PointAt(pixel, rendered_m);
+  const int bone = capsules_.rest()[capsules_.FindNearest(point).capsule].bone;
+  const float here = depth(u, v);
+  const Eigen::Vector2f slope(Slope(depth(u - 1, v), here, depth(u + 1, v)),
+                              Slope(depth(u, v - 1), here, depth(u, v + 1)));
+  return DepthDifferenceRow(camera_, bone, point, here, slope, cutoff_m);
 }
 
 double CapsuleTerm::PointWeight(double depth_m) const {

@@ -44,6 +44,8 @@ class CapsuleTerm final : public articulated::DataTerm {
 
   void MatchPoints(float cutoff_m, WorkerTeam& team);
   void MatchPixels(const BoneTransforms& camera_from_rest, float cutoff_m, WorkerTeam& team);
+  Vector3f PointAt(const Pixel& pixel, float depth_m) const;
+  DataRow RenderedPixelRow(const Pixel& pixel, float rendered_m, float cutoff_m) const;
   void AddDataRows(double width_m, articulated::PoseSystem& system);
   void AddSampleRows(const BoneTransforms& camera_from_rest, articulated::PoseSystem& system);
   void AddSilhouetteRows(int bone, const Vector3d& place, const Pixel& pixel,

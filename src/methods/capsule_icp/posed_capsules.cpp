@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.h"
 #include "math/rigid.h"
@@ -9,62 +10,63 @@
 namespace vitruvia::capsule_icp {
 
 PosedCapsules::PosedCapsules(std::vector<Capsule> capsules) : rest_(std::move(capsules)) {
-  constexpr int kRegister = 8;
-  Require(!rest_.empty() && rest_.size() <= kMost, "PosedCapsules: {} capsules, at most {}",
-          rest_.size(), int{kMost});
-  padded_ = (static_cast<int>(rest_.size()) + kRegister - 1) / kRegister * kRegister;
+  Require(!rest_.empty(), "PosedCapsules: no capsules");
+  groups_.resize((rest_.size() + kLanes - 1) / kLanes);
   Pose(BoneTransforms(kBoneCount));
 }
 
 void PosedCapsules::Pose(const BoneTransforms& camera_from_rest) {
   constexpr double kSteepest = 0.99;
   camera_from_rest_ = camera_from_rest;
-  for (int k = 0; k < padded_; ++k) {
-    const Capsule& c = rest_[std::min<std::size_t>(k, rest_.size() - 1)];
+  for (std::size_t k = 0; k < kLanes * groups_.size(); ++k) {
+    const Capsule& c = rest_[std::min(k, rest_.size() - 1)];
     const Rigidd& moved = camera_from_rest[c.bone];
     const Vector3f start = (moved * c.start).cast<float>();
     const double length = std::max((c.end - c.start).norm(), 1e-9);
     const Vector3f axis = (moved.rotation * (c.end - c.start) / length).cast<float>();
-    const double sine =
-        std::clamp((c.start_radius_m - c.end_radius_m) / length, -kSteepest, kSteepest);
-    lanes_.start_x[k] = start.x();
-    lanes_.start_y[k] = start.y();
-    lanes_.start_z[k] = start.z();
-    lanes_.axis_x[k] = axis.x();
-    lanes_.axis_y[k] = axis.y();
-    lanes_.axis_z[k] = axis.z();
-    lanes_.length[k] = static_cast<float>(length);
-    lanes_.radius[k] = static_cast<float>(c.start_radius_m);
-    lanes_.slope[k] = static_cast<float>((c.start_radius_m - c.end_radius_m) / length);
-    lanes_.tangent[k] = static_cast<float>(sine / std::sqrt(1.0 - sine * sine));
+    const double slope = (c.start_radius_m - c.end_radius_m) / length;
+    const double sine = std::clamp(slope, -kSteepest, kSteepest);
+    Group& group = groups_[k / kLanes];
+    const std::size_t lane = k % kLanes;
+    group.start_x[lane] = start.x();
+    group.start_y[lane] = start.y();
+    group.start_z[lane] = start.z();
+    group.axis_x[lane] = axis.x();
+    group.axis_y[lane] = axis.y();
+    group.axis_z[lane] = axis.z();
+    group.length[lane] = static_cast<float>(length);
+    group.radius[lane] = static_cast<float>(c.start_radius_m);
+    group.slope[lane] = static_cast<float>(slope);
+    group.tangent[lane] = static_cast<float>(sine / std::sqrt(1.0 - sine * sine));
   }
 }
 
 PosedCapsules::Nearest PosedCapsules::FindNearest(const Vector3f& x) const {
-  alignas(32) std::array<float, kMost> distances{}, places{};
-  const float px = x.x(), py = x.y(), pz = x.z();
-  const int count = padded_;
-  for (int k = 0; k < count; ++k) {
-    const float dx = px - lanes_.start_x[k], dy = py - lanes_.start_y[k],
-                dz = pz - lanes_.start_z[k];
-    const float along = dx * lanes_.axis_x[k] + dy * lanes_.axis_y[k] + dz * lanes_.axis_z[k];
-    const float squared = dx * dx + dy * dy + dz * dz - along * along;
-    const float across = std::sqrt(squared > 0.0f ? squared : 0.0f);
-    float z = along - across * lanes_.tangent[k];
-    z = z < 0.0f ? 0.0f : z;
-    z = z > lanes_.length[k] ? lanes_.length[k] : z;
-    const float rest = along - z;
-    distances[k] =
-        std::sqrt(rest * rest + across * across) - lanes_.radius[k] + z * lanes_.slope[k];
-    places[k] = z;
+  Nearest nearest{0, std::numeric_limits<float>::infinity(), Vector3f::Zero()};
+  float place = 0.0f;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const Group& c = groups_[g];
+    const Lanes dx = x.x() - c.start_x, dy = x.y() - c.start_y, dz = x.z() - c.start_z;
+    const Lanes along = dx * c.axis_x + dy * c.axis_y + dz * c.axis_z;
+    const Lanes across_squared = (dx * dx + dy * dy + dz * dz - along * along).max(0.0f);
+    const Lanes z = (along - across_squared.sqrt() * c.tangent).max(0.0f).min(c.length);
+    const Lanes rest = along - z;
+    const Lanes distance = (rest * rest + across_squared).sqrt() - c.radius + z * c.slope;
+    Eigen::Index lane = 0;
+    const float least = distance.minCoeff(&lane);
+    if (!(least < nearest.distance_m)) continue;
+    nearest.distance_m = least;
+    nearest.capsule = static_cast<int>(g) * kLanes + static_cast<int>(lane);
+    place = z[lane];
   }
-  int best = 0;
-  for (int k = 1; k < count; ++k) best = distances[k] < distances[best] ? k : best;
-  const float z = places[best];
-  const Vector3f away(px - lanes_.start_x[best] - z * lanes_.axis_x[best],
-                      py - lanes_.start_y[best] - z * lanes_.axis_y[best],
-                      pz - lanes_.start_z[best] - z * lanes_.axis_z[best]);
-  return {best, distances[best], away.normalized()};
+  nearest.capsule = std::min(nearest.capsule, static_cast<int>(rest_.size()) - 1);
+  const Group& group = groups_[static_cast<std::size_t>(nearest.capsule / kLanes)];
+  const int lane = nearest.capsule % kLanes;
+  nearest.normal = Vector3f(x.x() - group.start_x[lane] - place * group.axis_x[lane],
+                            x.y() - group.start_y[lane] - place * group.axis_y[lane],
+                            x.z() - group.start_z[lane] - place * group.axis_z[lane])
+                       .normalized();
+  return nearest;
 }
 
 Capsule PosedCapsules::InCamera(int k) const {

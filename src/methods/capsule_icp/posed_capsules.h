@@ -23,18 +23,18 @@ class PosedCapsules {
   Capsule InCamera(int k) const;
 
  private:
-  static constexpr int kMost = 32;  // a multiple of the width of a vector register
+  static constexpr int kLanes = 8;  // floats in a vector register
+  using Lanes = Eigen::Array<float, kLanes, 1>;
+
+  // Eight capsules in the camera frame: start, axis, length, first radius, its loss per metre, and
+  // tan φ. The last group is filled up with copies of the last capsule.
+  struct Group {
+    Lanes start_x, start_y, start_z, axis_x, axis_y, axis_z, length, radius, slope, tangent;
+  };
 
   std::vector<Capsule> rest_;
   BoneTransforms camera_from_rest_;
-  int padded_ = 0;  // capsules, and copies of the last one up to a full register
-  // In the camera frame: start, axis, length, first radius, its loss per metre, and tan φ.
-  struct Lanes {
-    alignas(32) float start_x[kMost], start_y[kMost], start_z[kMost];
-    alignas(32) float axis_x[kMost], axis_y[kMost], axis_z[kMost];
-    alignas(32) float length[kMost], radius[kMost], slope[kMost], tangent[kMost];
-  };
-  Lanes lanes_{};
+  std::vector<Group> groups_;
 };
 
 }  // namespace vitruvia::capsule_icp

@@ -183,17 +183,26 @@ DistanceField::DistanceField(const TriangleMesh& closed, double cell_m, double m
   builder.Sign();
 }
 
+// The eight nodes of a cell, and where in it a point lies.
+struct DistanceField::Cell {
+  Cell(const DistanceField& field, const Vector3f& x) {
+    const Vector3f cell = (x - field.origin_) * field.inverse_cell_;
+    const int i = static_cast<int>(cell.x()), j = static_cast<int>(cell.y()),
+              k = static_cast<int>(cell.z());
+    share = cell - Vector3f(static_cast<float>(i), static_cast<float>(j), static_cast<float>(k));
+    const float* at = &field.values_[field.Index(i, j, k)];
+    const std::size_t row = field.size_[0], layer = row * field.size_[1];
+    value = {at[0],     at[1],         at[row],         at[row + 1],
+             at[layer], at[layer + 1], at[layer + row], at[layer + row + 1]};
+  }
+  Vector3f share;
+  std::array<float, 8> value;  // x fastest, then y
+};
+
 DistanceField::Sample DistanceField::At(const Vector3f& x) const {
-  const Vector3f cell = (x - origin_) * inverse_cell_;
-  const int i = static_cast<int>(cell.x()), j = static_cast<int>(cell.y()),
-            k = static_cast<int>(cell.z());
-  const float fx = cell.x() - static_cast<float>(i), fy = cell.y() - static_cast<float>(j),
-              fz = cell.z() - static_cast<float>(k);
-  const float* at = &values_[Index(i, j, k)];
-  const std::size_t row = size_[0], layer = row * size_[1];
-  const float v000 = at[0], v100 = at[1], v010 = at[row], v110 = at[row + 1];
-  const float v001 = at[layer], v101 = at[layer + 1], v011 = at[layer + row],
-              v111 = at[layer + row + 1];
+  const Cell c(*this, x);
+  const auto& [v000, v100, v010, v110, v001, v101, v011, v111] = c.value;
+  const float fx = c.share.x(), fy = c.share.y(), fz = c.share.z();
   const float v00 = Mix(v000, v100, fx), v10 = Mix(v010, v110, fx);
   const float v01 = Mix(v001, v101, fx), v11 = Mix(v011, v111, fx);
   const float v0 = Mix(v00, v10, fy), v1 = Mix(v01, v11, fy);
@@ -201,6 +210,14 @@ DistanceField::Sample DistanceField::At(const Vector3f& x) const {
       Mix(Mix(v100 - v000, v110 - v010, fy), Mix(v101 - v001, v111 - v011, fy), fz);
   const float along_y = Mix(v10 - v00, v11 - v01, fz);
   return {Mix(v0, v1, fz), inverse_cell_ * Vector3f(along_x, along_y, v1 - v0)};
+}
+
+float DistanceField::DistanceAt(const Vector3f& x) const {
+  const Cell c(*this, x);
+  const auto& [v000, v100, v010, v110, v001, v101, v011, v111] = c.value;
+  const float fx = c.share.x(), fy = c.share.y(), fz = c.share.z();
+  return Mix(Mix(Mix(v000, v100, fx), Mix(v010, v110, fx), fy),
+             Mix(Mix(v001, v101, fx), Mix(v011, v111, fx), fy), fz);
 }
 
 }  // namespace vitruvia::sdf_parts

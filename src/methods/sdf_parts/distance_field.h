@@ -23,9 +23,11 @@ class DistanceField {
   }
   // Trilinear. The grid must cover x.
   Sample At(const Vector3f& x) const;
+  float DistanceAt(const Vector3f& x) const;
 
  private:
   struct Builder;
+  struct Cell;
 
   std::size_t Index(int i, int j, int k) const {
     return (static_cast<std::size_t>(k) * size_[1] + j) * size_[0] + i;

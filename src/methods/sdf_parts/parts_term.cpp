@@ -103,7 +103,7 @@ void PartsTerm::MatchPoints(float cutoff_m, WorkerTeam& team) {
   nearest_.resize(points.size());
   team.For(static_cast<int>(points.size()), [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      PosedParts::Nearest nearest = posed_.FindNearest(points[i]);
+      PosedParts::Nearest nearest = posed_.FindNearest(points[i], cutoff_m);
       const bool is_near = std::abs(nearest.distance_m) <= cutoff_m;
       const bool agrees =
           normals_[i].isZero() || normals_[i].dot(nearest.gradient) >= facing_cosine;
@@ -129,9 +129,11 @@ void PartsTerm::MatchPrediction(const BoneTransforms& camera_from_rest, WorkerTe
           prediction_camera_.Unproject(static_cast<float>(column), static_cast<float>(row), z));
     }
   }
+  constexpr float kOnSurface_m = 0.02f;
   predicted_bones_.resize(predicted_.size());
   team.For(static_cast<int>(predicted_.size()), [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) predicted_bones_[i] = posed_.FindNearest(predicted_[i]).bone;
+    for (int i = begin; i < end; ++i)
+      predicted_bones_[i] = posed_.FindNearest(predicted_[i], kOnSurface_m).bone;
   });
   near_cloud_->FindNearest(predicted_, static_cast<float>(settings_.predicted.cutoff_m),
                            neighbors_);
