@@ -19,8 +19,8 @@ struct StoppingSettings {
 
 // The pose that is expected, and how far a frame may leave it.
 struct PredictionSettings {
-  double velocity_share = 0.7;
-  double angle_deviation_deg = 8.0;
+  double velocity_share = 0.5;
+  double angle_deviation_deg = 5.0;
   double rotation_deviation_deg = 8.0;
   double position_deviation_m = 0.1;
 

@@ -51,8 +51,8 @@ void SilhouetteSettings::Describe(Fields& f) {
                        "that of the points; 0: left out",
             .min = 0,
             .max = 1e6,
-            .origin = Origin::kGuessed,
-            .source = "λ_s"});
+            .origin = Origin::kTuned,
+            .source = "λ_s; captured/walk: from 0.05 on limbs stick to the trunk's edge"});
   if (!f.Applies(weight > 0.0)) return;
   f.Integer("reach_px", reach_px,
             {.meaning = "columns or rows beyond which a sample outside the silhouette is not drawn "
@@ -69,8 +69,8 @@ void FreeSpaceSettings::Describe(Fields& f) {
                        "that of the points; 0: left out",
             .min = 0,
             .max = 1e6,
-            .origin = Origin::kGuessed,
-            .source = "λ_f"});
+            .origin = Origin::kTuned,
+            .source = "λ_f; fig11: at 1 an arm before the trunk is pushed into it"});
   if (!f.Applies(weight > 0.0)) return;
   f.Number(
       "margin_m", margin_m,

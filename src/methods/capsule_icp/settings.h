@@ -26,14 +26,14 @@ struct MatchSettings {
 };
 
 struct SilhouetteSettings {
-  double weight = 0.02;
+  double weight = 0.01;
   int reach_px = 24;
 
   void Describe(Fields& fields);
 };
 
 struct FreeSpaceSettings {
-  double weight = 0.02;
+  double weight = 0.01;
   double margin_m = 0.03;
   double reach_m = 0.15;
 

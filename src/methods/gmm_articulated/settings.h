@@ -10,10 +10,7 @@ struct Settings {
   double outlier_share = 0.05;
   double reach_sigmas = 3.0;
 
-  Settings() {
-    common.stride_px = 3;
-    common.stopping.iterations = 12;
-  }
+  Settings() { common.stopping.iterations = 12; }
   void Describe(Fields& fields);
 };
 

@@ -73,8 +73,8 @@ void PredictedSettings::Describe(Fields& f) {
                        "against that of as many points; 0: left out",
             .min = 0,
             .max = 1e6,
-            .origin = Origin::kPaper,
-            .source = "DART: λ = 1"});
+            .origin = Origin::kTuned,
+            .source = "captured/walk; DART: λ = 1, with which limbs stick to the trunk"});
   if (!f.Applies(weight > 0.0)) return;
   f.Integer("stride_px", stride_px,
             {.meaning = "every how many columns and rows the model's depth is predicted",
@@ -95,8 +95,8 @@ void PredictedSettings::Describe(Fields& f) {
             .unit = "m",
             .min = 0.001,
             .max = 10,
-            .origin = Origin::kGuessed,
-            .source = "DART: truncated, or not at all"});
+            .origin = Origin::kTuned,
+            .source = "captured/walk; DART: truncated, or not at all"});
 }
 
 void IntersectionSettings::Describe(Fields& f) {

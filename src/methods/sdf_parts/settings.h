@@ -23,10 +23,10 @@ struct ObservedSettings {
 };
 
 struct PredictedSettings {
-  double weight = 1.0;
+  double weight = 0.2;
   int stride_px = 4;
   double occupied_m = 0.03;
-  double cutoff_m = 0.15;
+  double cutoff_m = 0.08;
 
   void Describe(Fields& fields);
 };
