@@ -36,7 +36,9 @@ TEST(PointGrid, RunsHoldAllThatIsNear) {
     });
     for (std::size_t i = 0; i < points.size(); ++i) {
       EXPECT_LE(seen[i], 1);
-      if ((points[i] - place).norm() < kCell_m) EXPECT_EQ(seen[i], 1);
+      if ((points[i] - place).norm() < kCell_m) {
+        EXPECT_EQ(seen[i], 1);
+      }
     }
   }
 }

@@ -107,7 +107,7 @@ TEST_P(ArticulatedMethod, RefusesWhatItCannotUse) {
 
 INSTANTIATE_TEST_SUITE_P(Baselines, ArticulatedMethod,
                          testing::Values("capsule_icp", "sdf_parts", "gmm_articulated"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& method) { return std::string(method.param); });
 
 }  // namespace
 }  // namespace vitruvia
