@@ -1,6 +1,7 @@
 // Settings that all trackers of an articulated body have.
 #pragma once
 
+#include "config/settings.h"
 #include "tracking/depth_noise.h"
 #include "tracking/placement.h"
 #include "tracking/relocalization_settings.h"

@@ -6,6 +6,7 @@
 #include "methods/capsule_icp/posed_capsules.h"
 #include "methods/capsule_icp/settings.h"
 #include "methods/capsule_icp/silhouette.h"
+#include "tracking/tracker.h"
 
 namespace vitruvia::capsule_icp {
 

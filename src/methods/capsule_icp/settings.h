@@ -1,6 +1,7 @@
 #pragma once
 
 #include "articulated/settings.h"
+#include "config/settings.h"
 
 namespace vitruvia::capsule_icp {
 

@@ -3,8 +3,10 @@
 #pragma once
 
 #include "articulated/data_term.h"
+#include "fitting/shaped_body.h"
 #include "methods/gmm_articulated/mixture.h"
 #include "methods/gmm_articulated/settings.h"
+#include "tracking/tracker.h"
 
 namespace vitruvia::gmm_articulated {
 

@@ -6,6 +6,7 @@
 #include "methods/sdf_parts/posed_parts.h"
 #include "methods/sdf_parts/settings.h"
 #include "search/nearest_neighbors.h"
+#include "tracking/tracker.h"
 
 namespace vitruvia::sdf_parts {
 
