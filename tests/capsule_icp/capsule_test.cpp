@@ -60,7 +60,7 @@ TEST(Capsule, NormalIsTheGradientOfTheDistance) {
 }
 
 TEST(Capsule, TheMeshAndTheSamplesLieOnIt) {
-  const CapsuleMesh mesh = Meshed({kTapered});
+  const CapsuleMesh mesh = Meshed({kTapered}, 16);
   EXPECT_EQ(InspectMesh(mesh.mesh).problem, "");
   EXPECT_GT(EnclosedVolume(mesh.mesh), 0.0);
   for (const Vector3f& v : mesh.mesh.vertices) {

@@ -88,32 +88,31 @@ std::vector<SurfaceSample> SampleCapsules(const std::vector<Capsule>& capsules, 
   return samples;
 }
 
-CapsuleMesh Meshed(const std::vector<Capsule>& capsules) {
-  constexpr int kRoundRings = 4, kAround = 16;
+CapsuleMesh Meshed(const std::vector<Capsule>& capsules, int corners) {
   CapsuleMesh result;
   auto& [vertices, triangles] = result.mesh;
   for (const Capsule& c : capsules) {
     const Frame frame = FrameOf(c);
-    const std::vector<Ring> rings = RingsOf(c, kRoundRings, 1);
+    const std::vector<Ring> rings = RingsOf(c, corners / 4, 1);
     const auto first = static_cast<std::int32_t>(vertices.size());
     const auto count = static_cast<std::int32_t>(rings.size());
     // The first and the last ring are poles: one vertex each.
     const auto vertex = [&](std::int32_t ring, std::int32_t i) -> std::int32_t {
       if (ring == 0) return first;
-      if (ring == count - 1) return first + 1 + (count - 2) * kAround;
-      return first + 1 + (ring - 1) * kAround + i % kAround;
+      if (ring == count - 1) return first + 1 + (count - 2) * corners;
+      return first + 1 + (ring - 1) * corners + i % corners;
     };
     for (std::int32_t r = 0; r < count; ++r) {
       const bool is_pole = r == 0 || r == count - 1;
-      for (int i = 0; i < (is_pole ? 1 : kAround); ++i) {
+      for (int i = 0; i < (is_pole ? 1 : corners); ++i) {
         vertices.push_back(OnSphere(frame, rings[r].center, rings[r].radius, rings[r].latitude,
-                                    2.0 * std::numbers::pi * i / kAround)
+                                    2.0 * std::numbers::pi * i / corners)
                                .cast<float>());
         result.bones.push_back(c.bone);
       }
     }
     for (std::int32_t r = 0; r + 1 < count; ++r) {
-      for (std::int32_t i = 0; i < kAround; ++i) {
+      for (std::int32_t i = 0; i < corners; ++i) {
         if (r > 0) triangles.push_back({vertex(r, i), vertex(r, i + 1), vertex(r + 1, i)});
         if (r + 2 < count) {
           triangles.push_back({vertex(r, i + 1), vertex(r + 1, i + 1), vertex(r + 1, i)});

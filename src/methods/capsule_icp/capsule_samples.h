@@ -14,11 +14,11 @@ struct SurfaceSample {
 // Samples about `spacing_m` apart of what no other capsule covers.
 std::vector<SurfaceSample> SampleCapsules(const std::vector<Capsule>& capsules, double spacing_m);
 
-// A closed mesh of each capsule, and the bone of each vertex.
+// A closed mesh of each capsule, with so many corners round its axis, and the bone of each vertex.
 struct CapsuleMesh {
   TriangleMesh mesh;
   std::vector<int> bones;
 };
-CapsuleMesh Meshed(const std::vector<Capsule>& capsules);
+CapsuleMesh Meshed(const std::vector<Capsule>& capsules, int corners);
 
 }  // namespace vitruvia::capsule_icp

@@ -90,7 +90,7 @@ CapsuleTerm::CapsuleTerm(const Subject& subject, const PinholeCamera& camera,
       settings_(settings),
       capsules_(FitCapsules(subject, settings.capsules.trunk_capsules)),
       samples_(SampleCapsules(capsules_.rest(), settings.capsules.sample_spacing_m)),
-      mesh_(Meshed(capsules_.rest())),
+      mesh_(Meshed(capsules_.rest(), kRenderedCorners)),
       rasterizer_(MakeRasterizer(Rasterizer::kFrontFaces, camera)),
       silhouette_(camera, settings.silhouette.reach_px) {
   const std::vector<Capsule>& rest = capsules_.rest();

@@ -29,6 +29,9 @@ DataRow ClosestPointRow(const PosedCapsules& capsules, const Vector3f& point,
 DataRow DepthDifferenceRow(const PinholeCamera& camera, int bone, const Vector3f& rendered_point,
                            float observed_depth_m, const Eigen::Vector2f& slope, float cutoff_m);
 
+// Corners of the mesh that is rendered for depth differences.
+inline constexpr int kRenderedCorners = 16;
+
 class CapsuleTerm final : public articulated::DataTerm {
  public:
   CapsuleTerm(const Subject& subject, const PinholeCamera& camera, const Settings& settings);
