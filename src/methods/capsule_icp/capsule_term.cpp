@@ -5,6 +5,7 @@
 
 #include "articulated/bone_neighbors.h"
 #include "articulated/cloud_normals.h"
+#include "articulated/strided_camera.h"
 #include "math/rigid.h"
 
 namespace vitruvia::capsule_icp {
@@ -91,7 +92,8 @@ CapsuleTerm::CapsuleTerm(const Subject& subject, const PinholeCamera& camera,
       capsules_(FitCapsules(subject, settings.capsules.trunk_capsules)),
       samples_(SampleCapsules(capsules_.rest(), settings.capsules.sample_spacing_m)),
       mesh_(Meshed(capsules_.rest(), kRenderedCorners)),
-      rasterizer_(MakeRasterizer(Rasterizer::kFrontFaces, camera)),
+      rasterizer_(MakeRasterizer(Rasterizer::kFrontFaces,
+                                 articulated::Strided(camera, settings.common.stride_px))),
       silhouette_(camera, settings.silhouette.reach_px) {
   const std::vector<Capsule>& rest = capsules_.rest();
   for (int a = 0; a < static_cast<int>(rest.size()); ++a) {
@@ -162,7 +164,7 @@ void CapsuleTerm::MatchPixels(const BoneTransforms& camera_from_rest, float cuto
     for (int row = begin; row < end; ++row) {
       for (int column = 0; column < columns; ++column) {
         const int u = column * stride, v = row * stride;
-        const float z = rendered(u, v), here = depth(u, v);
+        const float z = rendered(column, row), here = depth(u, v);
         if (u == 0 || v == 0 || !(here > 0.0f)) continue;
         rows_[static_cast<std::size_t>(row) * columns + column] =
             z > 0.0f ? RenderedPixelRow({u, v}, z, cutoff_m)

@@ -5,6 +5,7 @@
 
 #include "articulated/bone_neighbors.h"
 #include "articulated/cloud_normals.h"
+#include "articulated/strided_camera.h"
 #include "geometry/point_sets.h"
 #include "math/rigid.h"
 
@@ -18,16 +19,6 @@ using articulated::PoseSystem;
 using articulated::TimedStep;
 
 namespace {
-
-// The camera that sees every `stride`-th column and row of another's.
-PinholeCamera Strided(const PinholeCamera& camera, int stride) {
-  return {(camera.width + stride - 1) / stride,
-          (camera.height + stride - 1) / stride,
-          camera.fx / stride,
-          camera.fy / stride,
-          camera.cx / stride,
-          camera.cy / stride};
-}
 
 double SurfaceArea(const TriangleMesh& mesh) {
   double area = 0.0;
@@ -44,7 +35,7 @@ double SurfaceArea(const TriangleMesh& mesh) {
 PartsTerm::PartsTerm(const Subject& subject, const PinholeCamera& camera, const Settings& settings)
     : settings_(settings),
       camera_(camera),
-      prediction_camera_(Strided(camera, settings.predicted.stride_px)),
+      prediction_camera_(articulated::Strided(camera, settings.predicted.stride_px)),
       parts_(CutIntoParts(subject, settings.field.least_weight)),
       posed_(parts_, settings.field.cell_m, settings.field.margin_m),
       rasterizer_(MakeRasterizer(Rasterizer::kFrontFaces, prediction_camera_)) {
