@@ -2,47 +2,18 @@
 
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
+#include "fitting/state_step.h"
 #include "math/angles.h"
-#include "math/rotation.h"
 
 namespace vitruvia {
 namespace {
 
 constexpr int kRows = 256;  // added as one product
 
-BodyState Stepped(BodyState state, const Eigen::VectorXd& step) {
-  state.rotation = ExpSo3<double>(step.segment<3>(PosedBody::kRotation)) * state.rotation;
-  state.pelvis_position += step.segment<3>(PosedBody::kPosition);
-  state.angles_deg += step.segment<kAngleCount>(PosedBody::kAngles) / kRadiansPerDegree;
-  state.angles_deg =
-      state.angles_deg.cwiseMax(JointLimits().min_deg).cwiseMin(JointLimits().max_deg);
-  state.theta += step.tail(state.theta.size());
-  return state;
-}
-
 double Cutoff(const FitStage& stage, int iteration) {
   if (stage.iterations < 2) return stage.last_cutoff_m;
   return stage.first_cutoff_m *
          std::pow(stage.last_cutoff_m / stage.first_cutoff_m, iteration / (stage.iterations - 1.0));
-}
-
-// Solves H x = −g for the free unknowns; the others keep their values of x.
-void SolveFree(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient,
-               const std::vector<int>& free, Eigen::VectorXd& x) {
-  const auto n = static_cast<Eigen::Index>(free.size());
-  Eigen::MatrixXd h(n, n);
-  Eigen::VectorXd g(n);
-  Eigen::VectorXd held = x;
-  for (const int i : free) held[i] = 0.0;
-  const Eigen::VectorXd moved = gradient + hessian * held;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    g[i] = moved[free[i]];
-    for (Eigen::Index j = 0; j < n; ++j) h(i, j) = hessian(free[i], free[j]);
-  }
-  const Eigen::VectorXd solution = h.ldlt().solve(-g);
-  for (Eigen::Index i = 0; i < n; ++i) x[free[i]] = solution[i];
 }
 
 }  // namespace
@@ -106,29 +77,8 @@ Eigen::VectorXd PoseFit::Step(const BodyState& state, const FitStage& stage,
     hessian(k, k) += 1.0;
     gradient[k] += state.theta[k - PosedBody::kShape] - priors.theta[k - PosedBody::kShape];
   }
-  std::vector<int> free;
-  for (int k = 0; k < (stage.moves_shape ? columns : PosedBody::kShape); ++k) free.push_back(k);
-  Eigen::VectorXd step = Eigen::VectorXd::Zero(columns);
-  const AngleRanges& limits = JointLimits();
-  constexpr int kMostRounds = 4;  // of holding angles at their limits
-  for (int round = 0; round < kMostRounds; ++round) {
-    SolveFree(hessian, gradient, free, step);
-    std::vector<int> still_free;
-    for (const int k : free) {
-      const int a = k - PosedBody::kAngles;
-      if (a < 0 || a >= kAngleCount) {
-        still_free.push_back(k);
-        continue;
-      }
-      const double lowest = kRadiansPerDegree * (limits.min_deg[a] - state.angles_deg[a]);
-      const double highest = kRadiansPerDegree * (limits.max_deg[a] - state.angles_deg[a]);
-      if (step[k] >= lowest && step[k] <= highest) still_free.push_back(k);
-      step[k] = std::clamp(step[k], lowest, highest);
-    }
-    if (still_free.size() == free.size()) break;
-    free = std::move(still_free);
-  }
-  return step;
+  return SolveWithinLimits(hessian, gradient, state.angles_deg,
+                           stage.moves_shape ? columns : int{PosedBody::kShape});
 }
 
 BodyState PoseFit::Run(FitTarget& target, BodyState state, const FitStage& stage,
@@ -144,7 +94,7 @@ BodyState PoseFit::Run(FitTarget& target, BodyState state, const FitStage& stage
     Eigen::VectorXd step = Step(state, stage, priors);
     const double longest = step.head(PosedBody::kShape).cwiseAbs().maxCoeff();
     if (longest > kLongestStep) step *= kLongestStep / longest;
-    state = Stepped(std::move(state), step);
+    state = Moved(std::move(state), step);
   }
   return state;
 }

@@ -3,10 +3,9 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "fitting/bone_twists.h"
 #include "geometry/decimation.h"
-#include "math/angles.h"
 #include "math/rigid.h"
-#include "math/rotation.h"
 
 namespace vitruvia {
 namespace {
@@ -28,13 +27,6 @@ AngleRanges MakeJointLimits() {
   set(0, MidlineJoints());
   for (const int start : kSideStart) set(start, SideJoints());
   return ranges;
-}
-
-JointPose LocalRotations(const AngleVector& angles_deg) {
-  JointPose pose;
-  pose.local_rotations.fill(Matrix3<double>::Identity());
-  SetRotations(PoseOf(angles_deg), pose);
-  return pose;
 }
 
 Eigen::VectorXd ShapedJoints(const ShapedBody& body, const Eigen::VectorXd& theta) {
@@ -72,33 +64,6 @@ BoneTransforms TransformsOf(const PosedBones& bones, const Eigen::VectorXd& rest
                      bones.joints[b] - bones.rotations[b] * rest_joints.segment<3>(3 * b)};
   }
   return transforms;
-}
-
-// A turn of one bone against its parent that an angle makes, per radian of the angle.
-struct AngleTurn {
-  int angle, bone;
-  Vector3d axis;  // angular velocity, parent's frame
-};
-
-std::vector<AngleTurn> AngleTurns(const AngleVector& angles_deg) {
-  constexpr double kStep_deg = 0.01;  // of central differences: exact to 1e-8
-  constexpr double kLeastTurn = 1e-7;
-  std::vector<AngleTurn> turns;
-  for (int a = 0; a < kAngleCount; ++a) {
-    AngleVector moved = angles_deg;
-    moved[a] += kStep_deg;
-    const JointPose after = LocalRotations(moved);
-    moved[a] -= 2.0 * kStep_deg;
-    const JointPose before = LocalRotations(moved);
-    for (int b = 1; b < kBoneCount; ++b) {
-      const Matrix3<double> turn = after.local_rotations[b] * before.local_rotations[b].transpose();
-      const Vector3d axis =
-          Vector3d(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0), turn(1, 0) - turn(0, 1)) /
-          (4.0 * kStep_deg * kRadiansPerDegree);
-      if (axis.norm() > kLeastTurn) turns.push_back({a, b, axis});
-    }
-  }
-  return turns;
 }
 
 }  // namespace
@@ -212,25 +177,7 @@ void PosedBody::Set(const BodyState& state) {
 }
 
 void PosedBody::Differentiate() {
-  for (Twists& twists : twists_) twists = Twists::Zero(6, kShape);
-  const auto add = [&](int bone, int parameter, const Vector3d& axis, const Vector3d& pivot) {
-    twists_[bone].col(parameter).head<3>() += axis.cast<float>();
-    twists_[bone].col(parameter).tail<3>() += pivot.cross(axis).cast<float>();
-  };
-  const std::vector<AngleTurn> turns = AngleTurns(state_.angles_deg);
-  for (int b = 0; b < kBoneCount; ++b) {
-    for (int k = 0; k < 3; ++k) {
-      add(b, kRotation + k, Vector3d::Unit(k), joints_[0]);
-      twists_[b](3 + k, kPosition + k) = 1.0f;
-    }
-    for (const AngleTurn& turn : turns) {
-      int above = b;
-      while (above >= 0 && above != turn.bone) above = Bones()[above].parent;
-      if (above < 0) continue;
-      add(b, kAngles + turn.angle, rotations_[Bones()[turn.bone].parent] * turn.axis,
-          joints_[turn.bone]);
-    }
-  }
+  FindTwists<float>(rotations_, joints_, state_.angles_deg, twists_);
   std::array<Eigen::Matrix3Xd, kBoneCount> posed_by_theta;
   for (int b = 0; b < kBoneCount; ++b) {
     const int parent = Bones()[b].parent;

@@ -80,8 +80,6 @@ class PosedBody {
   void Row(int vertex, const Vector3f& n, float* row) const;
 
  private:
-  using Twists = Eigen::Matrix<float, 6, Eigen::Dynamic>;  // angular velocity, velocity of origin
-
   const ShapedBody& body_;
   double mean_edge_m_ = 0.0;
   std::vector<float> area_shares_;
@@ -90,7 +88,8 @@ class PosedBody {
   std::vector<Vector3d> joints_;                       // posed
   BoneTransforms world_from_rest_;
   std::array<Rigidf, kBoneCount> float_transforms_;
-  std::array<Twists, kBoneCount> twists_;  // of each bone, with each rigid parameter
+  // Of each bone, with each rigid parameter: see bone_twists.h.
+  std::array<Eigen::Matrix<float, 6, Eigen::Dynamic>, kBoneCount> twists_;
   std::array<Eigen::Matrix<float, 3, Eigen::Dynamic>, kBoneCount> offsets_;  // d(p_j − R_j c_j)/dθ
   std::vector<Vector3f> rest_, vertices_, normals_;
 };

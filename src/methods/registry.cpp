@@ -5,10 +5,13 @@
 #include "config/did_you_mean.h"
 #include "config/settings_schema.h"
 #include "core/error.h"
+#include "methods/capsule_icp/capsule_icp.h"
 #include "methods/dynamic/dynamic.h"
 #include "methods/dynamic/skeleton_file.h"
 #include "methods/external/external.h"
+#include "methods/gmm_articulated/gmm_articulated.h"
 #include "methods/realtime_scape/realtime_scape.h"
+#include "methods/sdf_parts/sdf_parts.h"
 
 namespace vitruvia {
 namespace {
@@ -38,6 +41,12 @@ const std::vector<Entry>& Entries() {
       MakeEntry<dynamic::Dynamic, dynamic::Settings>(
           "dynamic",
           "paper B: dual-quaternion joints, projective association, a warp for every vertex"),
+      MakeEntry<capsule_icp::CapsuleIcp, capsule_icp::Settings>(
+          "capsule_icp", "baseline: capsules fitted to the subject, articulated closest points"),
+      MakeEntry<sdf_parts::SdfParts, sdf_parts::Settings>(
+          "sdf_parts", "baseline: rigid parts with signed distance fields, after DART"),
+      MakeEntry<gmm_articulated::GmmArticulated, gmm_articulated::Settings>(
+          "gmm_articulated", "baseline: mixture of Gaussians with joints, after Ye & Yang"),
       MakeEntry<external::External, external::Settings>(
           "external", "a tracker of your own: a program (src/methods/external/PROTOCOL.md)")};
   return entries;

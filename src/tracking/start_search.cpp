@@ -96,7 +96,8 @@ FoundStart StartSearch::Find(const DepthImage& depth) {
       StartHypotheses(facing_camera, settings_.headings, Eigen::VectorXd());
   const SearchOutcome found =
       SearchPose(hypotheses, levels, priors, {settings_.near_m, settings_.far_m});
-  start.camera_from_rest = WorldFromRest(fine_body_, found.best.state);
+  start.state = found.best.state;
+  start.camera_from_rest = WorldFromRest(fine_body_, start.state);
   start.distance = found.best.distance;
   start.margin = found.margin;
   const MutualDistance& d = start.distance;

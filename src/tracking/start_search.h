@@ -32,7 +32,8 @@ struct StartSearchSettings {
 
 struct FoundStart {
   bool found = false;
-  BoneTransforms camera_from_rest;  // of the best hypothesis, also where it is not trusted
+  BodyState state;                  // of the best hypothesis, also where it is not trusted
+  BoneTransforms camera_from_rest;  // in that state
   MutualDistance distance;
   double margin = 0.0;  // see SearchOutcome
   std::string message;  // how sure it is

@@ -4,6 +4,7 @@
 
 namespace vitruvia::bench {
 
+std::vector<Row> Baselines();
 std::vector<Row> FitShape();
 std::vector<Row> Growth();
 std::vector<Row> ImportDepth();
@@ -13,6 +14,7 @@ std::vector<Row> Starts();
 
 std::span<const Group> Groups() {
   static constexpr std::array kGroups = {
+      Group{"baselines", Baselines},
       Group{"fit_shape", FitShape},
       Group{"growth", Growth},
       Group{"import_depth", ImportDepth},

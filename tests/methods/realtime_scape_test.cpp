@@ -153,9 +153,12 @@ TEST(Registry, ReadsAMethodAndNamesWhatItDoesNotKnow) {
     }
     return "no error";
   };
+  std::vector<std::string> names;
+  for (const MethodInfo& method : Methods()) names.push_back(method.name);
   EXPECT_EQ(message(R"({"method": "realtime_scap"})"),
-            "m.json: method: unknown method \"realtime_scap\"; did you mean \"realtime_scape\"? "
-            "known: realtime_scape, dynamic, external");
+            fmt::format("m.json: method: unknown method \"realtime_scap\"; did you mean "
+                        "\"realtime_scape\"? known: {}",
+                        fmt::join(names, ", ")));
   EXPECT_NE(message(R"({"method": "realtime_scape", "settings": {"join_weight": 3}})")
                 .find("m.json: settings.join_weight: unknown key (value 3); did you mean "
                       "\"joint_weight\"?"),

@@ -1,0 +1,26 @@
+// Articulated ICP with capsules: the model of Wei, Zhang & Chai 2012 (cylinders measured for the
+// person, depth difference and silhouette) and of Ganapathi et al. 2012 (closest points, free
+// space), in one tracker. docs/baselines.md says what is read from the papers and what is ours.
+//
+// Departures: the capsules are fitted to the subject's mesh; angles are anatomical and their limits
+// bounds; no detector of body parts.
+#pragma once
+
+#include "articulated/articulated_tracker.h"
+#include "methods/capsule_icp/settings.h"
+
+namespace vitruvia::capsule_icp {
+
+class CapsuleIcp final : public articulated::ArticulatedTracker {
+ public:
+  explicit CapsuleIcp(const Settings& settings);
+
+ private:
+  std::unique_ptr<articulated::DataTerm> MakeDataTerm(const Subject& subject,
+                                                      const ShapedBody& body,
+                                                      const PinholeCamera& camera) const override;
+
+  Settings settings_;
+};
+
+}  // namespace vitruvia::capsule_icp

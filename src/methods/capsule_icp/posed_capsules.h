@@ -1,0 +1,40 @@
+// The capsules of a body in a pose, laid out so that a point is compared with all of them at once.
+#pragma once
+
+#include "methods/capsule_icp/capsule.h"
+
+namespace vitruvia::capsule_icp {
+
+class PosedCapsules {
+ public:
+  explicit PosedCapsules(std::vector<Capsule> capsules);
+
+  void Pose(const BoneTransforms& camera_from_rest);
+  const std::vector<Capsule>& rest() const { return rest_; }
+
+  struct Nearest {
+    int capsule;
+    float distance_m;  // signed, negative inside
+    Vector3f normal;   // outward at the point
+  };
+  // Of a point in the camera frame: the capsule with the smallest signed distance.
+  Nearest FindNearest(const Vector3f& x) const;
+  // Capsule k in the camera frame.
+  Capsule InCamera(int k) const;
+
+ private:
+  static constexpr int kLanes = 8;  // floats in a vector register
+  using Lanes = Eigen::Array<float, kLanes, 1>;
+
+  // Eight capsules in the camera frame: start, axis, length, first radius, its loss per metre, and
+  // tan φ. The last group is filled up with copies of the last capsule.
+  struct Group {
+    Lanes start_x, start_y, start_z, axis_x, axis_y, axis_z, length, radius, slope, tangent;
+  };
+
+  std::vector<Capsule> rest_;
+  BoneTransforms camera_from_rest_;
+  std::vector<Group> groups_;
+};
+
+}  // namespace vitruvia::capsule_icp
