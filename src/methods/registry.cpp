@@ -9,6 +9,8 @@
 #include "methods/dynamic/skeleton_file.h"
 #include "methods/external/external.h"
 #include "methods/realtime_scape/realtime_scape.h"
+#include "methods/scape_regression/scape_regression.h"
+#include "methods/skeleton_driven/skeleton_driven.h"
 
 namespace vitruvia {
 namespace {
@@ -38,6 +40,12 @@ const std::vector<Entry>& Entries() {
       MakeEntry<dynamic::Dynamic, dynamic::Settings>(
           "dynamic",
           "paper B: dual-quaternion joints, projective association, a warp for every vertex"),
+      MakeEntry<skeleton_driven::SkeletonDriven, skeleton_driven::Settings>(
+          "skeleton_driven",
+          "baseline of paper A: joints found in each frame move a rig with heat-diffusion weights"),
+      MakeEntry<scape_regression::ScapeRegression, scape_regression::Settings>(
+          "scape_regression",
+          "baseline of paper A: SCAPE by regression, fitted to depth and contour, offline"),
       MakeEntry<external::External, external::Settings>(
           "external", "a tracker of your own: a program (src/methods/external/PROTOCOL.md)")};
   return entries;

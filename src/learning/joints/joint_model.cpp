@@ -1,0 +1,73 @@
+#include "learning/joints/joint_model.h"
+
+#include "core/error.h"
+
+namespace vitruvia::joints {
+namespace {
+
+// The zero vector, then the same places for every detector.
+std::vector<Vector3f> VotePlaces(int votes) {
+  RandomStream random(1, "votes");
+  std::vector<Vector3f> places{Vector3f::Zero()};
+  while (static_cast<int>(places.size()) < votes) {
+    Vector3f place;
+    for (float& x : place) x = static_cast<float>(random.Normal());
+    places.push_back(place);
+  }
+  return places;
+}
+
+template <class View>
+Vector3f MeanOffset(const Forest& forest, const View& view, const FeaturePoint& point) {
+  Vector3f sum = Vector3f::Zero();
+  for (const RegressionTree& tree : forest) sum += tree.Offset(view, point);
+  return sum / static_cast<float>(forest.size());
+}
+
+}  // namespace
+
+JointDetector::JointDetector(const JointModel& model, int votes, double vote_spread)
+    : model_(model), vote_spread_(vote_spread), places_(VotePlaces(votes)) {}
+
+std::optional<BodyPointPositions> JointDetector::Detect(const DepthImage& depth,
+                                                        const PinholeCamera& camera,
+                                                        double max_depth_m) const {
+  const std::optional<Vector3d> centroid = MeasuredCentroid(depth, camera, max_depth_m);
+  if (!centroid) return {};
+  const WholeDepth view{depth, static_cast<float>(max_depth_m)};
+  BodyPointPositions found;
+  for (int p = 0; p < kBodyPointCount; ++p) {
+    const int parent = BodyPoints()[p].parent;
+    Vector3f place = (parent < 0 ? *centroid : found[parent]).cast<float>();
+    for (const JointStage& stage : model_.stages) {
+      const auto spread_m = static_cast<float>(vote_spread_ * stage.start_deviation_m);
+      Vector3f sum = Vector3f::Zero();
+      for (const Vector3f& vote : places_) {
+        const Vector3f at = place + spread_m * vote;
+        sum += at + MeanOffset(stage.forests[p], view, FeaturePoint(camera, at));
+      }
+      place = sum / static_cast<float>(places_.size());
+    }
+    found[p] = place.cast<double>();
+  }
+  return found;
+}
+
+std::optional<Vector3d> MeasuredCentroid(const DepthImage& depth, const PinholeCamera& camera,
+                                         double max_depth_m) {
+  const WholeDepth view{depth, static_cast<float>(max_depth_m)};
+  Vector3d sum = Vector3d::Zero();
+  std::size_t count = 0;
+  for (int v = 0; v < depth.height(); ++v) {
+    for (int u = 0; u < depth.width(); ++u) {
+      const double z = view.At(u, v);
+      if (z == 0.0) continue;
+      sum += camera.Unproject<double>(u, v, z);
+      ++count;
+    }
+  }
+  if (count == 0) return {};
+  return sum / static_cast<double>(count);
+}
+
+}  // namespace vitruvia::joints
