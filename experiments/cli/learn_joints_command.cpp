@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "config/json_settings.h"
 #include "core/error.h"
 #include "sequence/sequence.h"
 #include "subjects/learned_joints.h"

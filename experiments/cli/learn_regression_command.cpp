@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "config/json_settings.h"
 #include "core/error.h"
 #include "subjects/learned_regression.h"
 

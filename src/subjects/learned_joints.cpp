@@ -3,8 +3,6 @@
 namespace vitruvia {
 namespace {
 
-constexpr int kVotes = 8;  // as the tracker's defaults
-constexpr double kVoteSpread = 0.5;
 constexpr double kFarthest_m = 10.0;
 
 DepthImage WholeImage(const joints::CroppedDepth& cropped, const PinholeCamera& camera) {
@@ -37,7 +35,7 @@ DetectionErrors TestJointModel(const joints::JointModel& model,
   others.seed += 1;
   others.population.seed += 1;
   others.images = settings.test_images;
-  const joints::JointDetector detector(model, kVotes, kVoteSpread);
+  const joints::JointDetector detector(model, joints::VoteSettings());
   DetectionErrors errors;
   errors.images = others.images;
   const double share = 1.0 / others.images;

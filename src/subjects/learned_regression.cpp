@@ -44,9 +44,9 @@ PersonErrors ErrorsOf(const PoseRegression& regression, const BodyModel& referen
   const std::vector<Triangle>& triangles = reference.rest.triangles;
   const std::vector<int> bones = TriangleBones(triangles, reference.weights);
   const ScapeMesh mesh({person.rest, triangles});
-  const std::size_t count = std::min<std::size_t>(kTestedPoses, person.poses.size());
+  const int count = std::min(kTestedPoses, static_cast<int>(person.poses.size()));
   PersonErrors errors;
-  for (std::size_t p = 0; p < count; ++p) {
+  for (int p = 0; p < count; ++p) {
     const auto rotations = PartRotations(triangles, bones, person.rest, person.poses[p]);
     std::vector<Matrix3<double>> turned;
     for (const int bone : bones) turned.push_back(rotations[bone]);
@@ -94,12 +94,13 @@ LearnedRegression LearnRegression(const RegressionLearningSettings& settings) {
   learnt.regression = LearnPoseRegression(database.reference, people, settings.regression);
   for (const PosedPerson& person : people) {
     learnt.errors.training_mean_m +=
-        ErrorsOf(learnt.regression, database.reference, person).with_m / people.size();
+        ErrorsOf(learnt.regression, database.reference, person).with_m /
+        static_cast<double>(people.size());
   }
   for (const PosedPerson& person : held_out) {
     const PersonErrors errors = ErrorsOf(learnt.regression, database.reference, person);
-    learnt.errors.held_out_mean_m += errors.with_m / held_out.size();
-    learnt.errors.without_mean_m += errors.without_m / held_out.size();
+    learnt.errors.held_out_mean_m += errors.with_m / static_cast<double>(held_out.size());
+    learnt.errors.without_mean_m += errors.without_m / static_cast<double>(held_out.size());
   }
   return learnt;
 }

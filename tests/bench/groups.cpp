@@ -4,6 +4,7 @@
 
 namespace vitruvia::bench {
 
+std::vector<Row> BaselineModels();
 std::vector<Row> FitShape();
 std::vector<Row> ImportDepth();
 std::vector<Row> LearnWeights();
@@ -12,6 +13,7 @@ std::vector<Row> Starts();
 
 std::span<const Group> Groups() {
   static constexpr std::array kGroups = {
+      Group{"baseline_models", BaselineModels},
       Group{"fit_shape", FitShape},
       Group{"import_depth", ImportDepth},
       Group{"learn_weights", LearnWeights},

@@ -1,10 +1,9 @@
 // Joint detectors: their features, their trees, what they learn and how they are stored.
-#include <fstream>
-
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "core/files.h"
+#include "math/rigid.h"
 #include "support/temporary_folder.h"
 #include "synth/joint_examples/joint_examples.h"
 
@@ -67,8 +66,8 @@ class LearntJoints : public ::testing::Test {
   }
   static ForestSettings Forests() {
     ForestSettings settings;
-    settings.stages = {{0.05, 0.5}, {0.08, 0.3}};
-    settings.trees = 2;
+    settings.stages = {{0.04, 0.5}, {0.03, 0.3}};
+    settings.trees = 3;
     settings.tree = {.depth = 6, .least_samples = 4, .candidates = 12, .split_samples = 100};
     return settings;
   }
@@ -105,7 +104,7 @@ TEST_F(LearntJoints, AreTheSameForAnyNumberOfThreads) {
 }
 
 TEST_F(LearntJoints, AreNearerToTheTruthThanTheMeanOfThePoints) {
-  const JointDetector detector(Model(), 4, 0.5);
+  const JointDetector detector(Model(), {.places = 4});
   double found_m = 0.0, centroid_m = 0.0;
   for (const JointExample& example : Images()) {
     const auto found = detector.Detect(Whole(example), Examples().camera, kFarthest_m);
@@ -119,7 +118,7 @@ TEST_F(LearntJoints, AreNearerToTheTruthThanTheMeanOfThePoints) {
 }
 
 TEST_F(LearntJoints, FindNothingInAnEmptyImage) {
-  const JointDetector detector(Model(), 4, 0.5);
+  const JointDetector detector(Model(), {.places = 4});
   EXPECT_FALSE(detector.Detect(DepthImage(160, 120), Examples().camera, kFarthest_m));
 }
 

@@ -59,7 +59,8 @@ TEST_F(HeatWeightsOfABody, AreThoseOfADenseSolve) {
     if (contact.bones.empty()) continue;
     const double heating = areas[v] * kHeat / (contact.distance_m * contact.distance_m);
     system(v, v) += heating;
-    for (const int b : contact.bones) right_side(v, b) += heating / contact.bones.size();
+    for (const int b : contact.bones)
+      right_side(v, b) += heating / static_cast<double>(contact.bones.size());
   }
   const Eigen::MatrixXd expected = system.partialPivLu().solve(right_side);
   const Eigen::MatrixXd found = HeatDistribution(body.rest, contacts, kHeat);

@@ -26,8 +26,25 @@ Vector3f MeanOffset(const Forest& forest, const View& view, const FeaturePoint& 
 
 }  // namespace
 
-JointDetector::JointDetector(const JointModel& model, int votes, double vote_spread)
-    : model_(model), vote_spread_(vote_spread), places_(VotePlaces(votes)) {}
+void VoteSettings::Describe(Fields& f) {
+  f.Integer("places", places,
+            {.meaning = "number of places that vote on each step to a joint: where the last step "
+                        "ended, and others round it",
+             .min = 1,
+             .max = 1000,
+             .origin = Origin::kGuessed,
+             .source = "the random tree walk averages its steps"});
+  f.Number(
+      "spread", spread,
+      {.meaning = "standard deviation of the places that vote on a step to a joint, as a share "
+                  "of the jitter that its stage has learnt with",
+       .min = 0.0,
+       .max = 10.0,
+       .origin = Origin::kGuessed});
+}
+
+JointDetector::JointDetector(const JointModel& model, const VoteSettings& votes)
+    : model_(model), spread_(votes.spread), places_(VotePlaces(votes.places)) {}
 
 std::optional<BodyPointPositions> JointDetector::Detect(const DepthImage& depth,
                                                         const PinholeCamera& camera,
@@ -40,7 +57,7 @@ std::optional<BodyPointPositions> JointDetector::Detect(const DepthImage& depth,
     const int parent = BodyPoints()[p].parent;
     Vector3f place = (parent < 0 ? *centroid : found[parent]).cast<float>();
     for (const JointStage& stage : model_.stages) {
-      const auto spread_m = static_cast<float>(vote_spread_ * stage.start_deviation_m);
+      const auto spread_m = static_cast<float>(spread_ * stage.jitter_m);
       Vector3f sum = Vector3f::Zero();
       for (const Vector3f& vote : places_) {
         const Vector3f at = place + spread_m * vote;

@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "body/body_points.h"
+#include "config/settings.h"
 #include "learning/joints/regression_tree.h"
 
 namespace vitruvia::joints {
@@ -22,7 +23,8 @@ namespace vitruvia::joints {
 using Forest = std::vector<RegressionTree>;
 
 struct JointStage {
-  double start_deviation_m = 0.0;  // of the places that its forests have learnt to start from
+  double jitter_m =
+      0.0;  // standard deviation round the places that its forests learnt to start from
   std::array<Forest, kBodyPointCount> forests;
 };
 
@@ -30,11 +32,18 @@ struct JointModel {
   std::vector<JointStage> stages;
 };
 
+// The places that vote on each step: the last step's end, and others round it.
+struct VoteSettings {
+  int places = 8;
+  double spread = 1.0;
+
+  void Describe(Fields& fields);
+};
+
 class JointDetector {
  public:
-  // `votes` ≥ 1 places for each step, of which the first is the last step's end and the others lie
-  // round it with `vote_spread` times the stage's deviation. The model must outlive this.
-  JointDetector(const JointModel& model, int votes, double vote_spread);
+  // The model must outlive this.
+  JointDetector(const JointModel& model, const VoteSettings& votes);
 
   // Camera frame, metres; nothing if no pixel is measured within max_depth_m. The image shows the
   // person alone.
@@ -43,7 +52,7 @@ class JointDetector {
 
  private:
   const JointModel& model_;
-  double vote_spread_;
+  double spread_;
   std::vector<Vector3f> places_;  // of votes, in standard deviations
 };
 

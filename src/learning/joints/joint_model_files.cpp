@@ -22,17 +22,19 @@ struct ModelHeader {
   static constexpr StoredFormat kFormat{"vitruvia-joint-model", 1, 1, "learn the joints again"};
 
   std::vector<std::string> points;
-  std::vector<double> start_deviation_m;
+  std::vector<double> jitter_m;
   int trees = 1;
   std::vector<int> nodes;
   nlohmann::json learnt_from = nlohmann::json::object();
 
   void Describe(Fields& f) {
     f.Texts("points", points, {.meaning = "names of the points that are found, in order"});
-    f.NumberList("start_deviation_m", start_deviation_m,
-                 {.meaning = "for each stage, how far from a point its trees have learnt to start",
-                  .unit = "m",
-                  .min = 0.0});
+    f.NumberList(
+        "jitter_m", jitter_m,
+        {.meaning = "for each stage, how far round the places that earlier stages reach its "
+                    "trees have learnt to start",
+         .unit = "m",
+         .min = 0.0});
     f.Integer("trees", trees, {.meaning = "trees for each stage and point", .min = 1, .max = 1000});
     f.Integers("nodes", nodes,
                {.meaning = "number of nodes of each tree in trees.bin: stage by stage, point by "
@@ -77,9 +79,9 @@ std::string TreeProblem(const RegressionTree& tree) {
 
 JointModel EmptyModel(const ModelHeader& header) {
   JointModel model;
-  for (const double deviation_m : header.start_deviation_m) {
+  for (const double jitter_m : header.jitter_m) {
     JointStage& stage = model.stages.emplace_back();
-    stage.start_deviation_m = deviation_m;
+    stage.jitter_m = jitter_m;
     for (Forest& forest : stage.forests) forest.resize(static_cast<std::size_t>(header.trees));
   }
   return model;
@@ -91,7 +93,7 @@ void CheckHeader(const ModelHeader& header, const fs::path& file) {
                                 fmt::join(PointNames(), ", "), fmt::join(header.points, ", ")));
   }
   const std::size_t trees =
-      header.start_deviation_m.size() * kBodyPointCount * static_cast<std::size_t>(header.trees);
+      header.jitter_m.size() * kBodyPointCount * static_cast<std::size_t>(header.trees);
   if (header.nodes.size() != trees || trees == 0) {
     throw DataError(fmt::format("{}: nodes: {} numbers, expected one for each of {} trees",
                                 file.string(), header.nodes.size(), trees));
@@ -108,7 +110,7 @@ void WriteJointModel(const fs::path& folder, const JointModel& model,
   std::string bytes;
   JointModel copy = model;
   for (const JointStage& stage : model.stages) {
-    header.start_deviation_m.push_back(stage.start_deviation_m);
+    header.jitter_m.push_back(stage.jitter_m);
     header.trees = static_cast<int>(stage.forests.front().size());
   }
   ForTrees(copy, [&](const RegressionTree& tree) {

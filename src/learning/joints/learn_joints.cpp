@@ -1,7 +1,5 @@
 #include "learning/joints/learn_joints.h"
 
-#include <mutex>
-
 #include "core/error.h"
 #include "core/progress.h"
 #include "core/worker_team.h"
@@ -14,38 +12,95 @@ Vector3d Jitter(double deviation_m, RandomStream& random) {
   return {x, y, random.Normal(0.0, deviation_m)};
 }
 
-// Where the search for a point begins in a stage, but for the jitter: in the first one at the
-// point's parent, later at the point itself.
-const Vector3d& StartOf(const JointExample& example, int point, std::size_t stage) {
-  if (stage > 0) return example.points[point];
-  const int parent = BodyPoints()[point].parent;
-  return parent < 0 ? example.centroid : example.points[parent];
+// Which images each tree learns from; every image is left out by one tree at least.
+std::vector<std::vector<char>> DrawImages(std::size_t images, const ForestSettings& settings,
+                                          RandomStream& random) {
+  std::vector<std::vector<char>> takes(settings.trees, std::vector<char>(images));
+  for (std::size_t i = 0; i < images; ++i) {
+    for (std::vector<char>& tree : takes) tree[i] = random.Uniform() < settings.image_share ? 1 : 0;
+    takes[random.Index(settings.trees)][i] = 0;
+  }
+  return takes;
 }
 
-std::vector<Sample> DrawSamples(const std::vector<JointExample>& examples,
-                                const PinholeCamera& camera, const ForestSettings& settings,
-                                std::size_t stage, int point, RandomStream& random) {
-  std::vector<Sample> samples;
-  samples.reserve(examples.size() * settings.starts_per_example);
-  for (const JointExample& example : examples) {
-    for (int k = 0; k < settings.starts_per_example; ++k) {
-      const Vector3d start =
-          StartOf(example, point, stage) + Jitter(settings.stages[stage].start_deviation_m, random);
-      samples.push_back({&example.depth, FeaturePoint(camera, start.cast<float>()),
-                         (example.points[point] - start).cast<float>()});
-    }
+// Learns the forests of one point from where its search begins in each image.
+class PointLearner {
+ public:
+  PointLearner(const std::vector<JointExample>& examples, const PinholeCamera& camera,
+               const ForestSettings& settings, int point, std::vector<Vector3d> starts)
+      : examples_(examples),
+        camera_(camera),
+        settings_(settings),
+        point_(point),
+        places_(std::move(starts)) {}
+
+  // Moves the places to where trees that have not seen the image lead.
+  Forest LearnStage(std::size_t stage, WorkerTeam& team) {
+    const std::string name = fmt::format("stage {} {}", stage, BodyPoints()[point_].name);
+    RandomStream image_random(static_cast<std::uint64_t>(settings_.seed), name);
+    const auto takes = DrawImages(examples_.size(), settings_, image_random);
+    Forest forest(static_cast<std::size_t>(settings_.trees));
+    team.For(settings_.trees, 1, [&](int begin, int end) {
+      for (int t = begin; t < end; ++t) {
+        ThrowIfInterrupted();
+        RandomStream random(static_cast<std::uint64_t>(settings_.seed),
+                            fmt::format("{} tree {}", name, t));
+        std::vector<Sample> samples = DrawSamples(stage, takes[t], random);
+        if (samples.empty()) throw DataError("joint examples: too few for a tree");
+        forest[t] = GrowTree(samples, settings_.tree, settings_.stages[stage].reach_m, random);
+      }
+    });
+    team.For(static_cast<int>(examples_.size()), [&](int begin, int end) {
+      for (int i = begin; i < end; ++i) MovePlace(forest, takes, static_cast<std::size_t>(i));
+    });
+    return forest;
   }
-  return samples;
-}
+
+  std::vector<Vector3d> TakePlaces() && { return std::move(places_); }
+
+ private:
+  std::vector<Sample> DrawSamples(std::size_t stage, const std::vector<char>& takes,
+                                  RandomStream& random) const {
+    std::vector<Sample> samples;
+    for (std::size_t i = 0; i < examples_.size(); ++i) {
+      if (takes[i] == 0) continue;
+      for (int k = 0; k < settings_.starts_per_image; ++k) {
+        const Vector3d start = places_[i] + Jitter(settings_.stages[stage].jitter_m, random);
+        samples.push_back({&examples_[i].depth, FeaturePoint(camera_, start.cast<float>()),
+                           (examples_[i].points[point_] - start).cast<float>()});
+      }
+    }
+    return samples;
+  }
+
+  void MovePlace(const Forest& forest, const std::vector<std::vector<char>>& takes,
+                 std::size_t image) {
+    const FeaturePoint place(camera_, places_[image].cast<float>());
+    Vector3f sum = Vector3f::Zero();
+    int count = 0;
+    for (std::size_t t = 0; t < forest.size(); ++t) {
+      if (takes[t][image] != 0) continue;
+      sum += forest[t].Offset(examples_[image].depth, place);
+      ++count;
+    }
+    places_[image] += (sum / static_cast<float>(count)).cast<double>();
+  }
+
+  const std::vector<JointExample>& examples_;
+  const PinholeCamera& camera_;
+  const ForestSettings& settings_;
+  int point_;
+  std::vector<Vector3d> places_;  // one for each image
+};
 
 }  // namespace
 
 void StageSettings::Describe(Fields& f) {
-  f.Number("start_deviation_m", start_deviation_m,
+  f.Number("jitter_m", jitter_m,
            {.meaning = "standard deviation of the places that a stage's trees learn to start from, "
-                       "round the point's parent in the first stage, round the point in later ones",
+                       "round those that earlier stages reach",
             .unit = "m",
-            .min = 1e-4,
+            .min = 0.0,
             .max = 1.0,
             .origin = Origin::kGuessed,
             .source = "the random tree walk has one stage"});
@@ -91,7 +146,13 @@ void ForestSettings::Describe(Fields& f) {
              .max = 100,
              .origin = Origin::kGuessed,
              .source = "Shotton et al. 2011: 3"});
-  f.Integer("starts_per_example", starts_per_example,
+  f.Number("image_share", image_share,
+           {.meaning = "share of the images that a tree learns from; the others say what the next "
+                       "stage has to learn",
+            .min = 0.05,
+            .max = 0.95,
+            .origin = Origin::kGuessed});
+  f.Integer("starts_per_image", starts_per_image,
             {.meaning = "places in each image from which a tree learns to find a point",
              .min = 1,
              .max = 1000,
@@ -108,31 +169,26 @@ JointModel LearnJoints(const std::vector<JointExample>& examples, const PinholeC
                        const ForestSettings& settings, int threads) {
   Require(!examples.empty(), "LearnJoints: no examples");
   JointModel model;
-  for (const StageSettings& stage : settings.stages) {
-    JointStage& learnt = model.stages.emplace_back();
-    learnt.start_deviation_m = stage.start_deviation_m;
-    for (Forest& forest : learnt.forests) forest.resize(static_cast<std::size_t>(settings.trees));
-  }
-  const int per_stage = kBodyPointCount * settings.trees;
-  const int count = per_stage * static_cast<int>(settings.stages.size());
-  Progress progress("trees", count);
-  std::mutex progress_mutex;
+  for (const StageSettings& stage : settings.stages)
+    model.stages.emplace_back().jitter_m = stage.jitter_m;
   WorkerTeam team(threads);
-  team.For(count, 1, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
-      ThrowIfInterrupted();
-      const auto stage = static_cast<std::size_t>(i / per_stage);
-      const int point = i % per_stage / settings.trees, tree = i % settings.trees;
-      RandomStream random(
-          static_cast<std::uint64_t>(settings.seed),
-          fmt::format("stage {} {} tree {}", stage, BodyPoints()[point].name, tree));
-      std::vector<Sample> samples = DrawSamples(examples, camera, settings, stage, point, random);
-      model.stages[stage].forests[point][static_cast<std::size_t>(tree)] =
-          GrowTree(samples, settings.tree, settings.stages[stage].reach_m, random);
-      const std::lock_guard lock(progress_mutex);
+  Progress progress("forests", kBodyPointCount * static_cast<int>(settings.stages.size()));
+  std::array<std::vector<Vector3d>, kBodyPointCount> reached;  // by each point, in each image
+  for (int point = 0; point < kBodyPointCount; ++point) {
+    const int parent = BodyPoints()[point].parent;
+    std::vector<Vector3d> starts;
+    if (parent >= 0) {
+      starts = reached[parent];
+    } else {
+      for (const JointExample& example : examples) starts.push_back(example.centroid);
+    }
+    PointLearner learner(examples, camera, settings, point, std::move(starts));
+    for (std::size_t stage = 0; stage < settings.stages.size(); ++stage) {
+      model.stages[stage].forests[point] = learner.LearnStage(stage, team);
       progress.Advance();
     }
-  });
+    reached[point] = std::move(learner).TakePlaces();
+  }
   return model;
 }
 

@@ -1,4 +1,8 @@
 // Learns a joint model from depth images whose joints are known.
+//
+// Points are learnt from the pelvis outwards, and each point stage by stage: a stage learns from
+// the places that the stages before it reach in images that their trees have not seen. For that
+// every tree learns from a share of the images, drawn at random.
 #pragma once
 
 #include <vector>
@@ -15,16 +19,17 @@ struct JointExample {
 };
 
 struct StageSettings {
-  double start_deviation_m = 0.1;
+  double jitter_m = 0.03;
   double reach_m = 0.4;
 
   void Describe(Fields& fields);
 };
 
 struct ForestSettings {
-  std::vector<StageSettings> stages{{0.06, 0.6}, {0.12, 0.45}, {0.06, 0.3}, {0.03, 0.2}};
-  int trees = 4;
-  int starts_per_example = 4;
+  std::vector<StageSettings> stages{{0.04, 0.6}, {0.04, 0.5}, {0.03, 0.35}, {0.02, 0.2}};
+  int trees = 6;
+  double image_share = 0.6;
+  int starts_per_image = 3;
   TreeSettings tree;
   int seed = 1;
 

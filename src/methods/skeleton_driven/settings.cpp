@@ -4,18 +4,7 @@ namespace vitruvia::skeleton_driven {
 
 void DetectorSettings::Describe(Fields& f) {
   f.File("model", model, {.meaning = "folder of a joint model (vitruvia learn joints)"});
-  f.Integer("votes", votes,
-            {.meaning = "places round the last one that vote on each step to a joint",
-             .min = 1,
-             .max = 1000,
-             .origin = Origin::kGuessed,
-             .source = "the random tree walk averages its steps"});
-  f.Number("vote_spread", vote_spread,
-           {.meaning = "standard deviation of those places, as a share of what a stage has learnt "
-                       "to start from",
-            .min = 0.0,
-            .max = 2.0,
-            .origin = Origin::kGuessed});
+  f.Section("votes", votes, {.meaning = "the places that vote on each step to a joint"});
 }
 
 void Settings::Describe(Fields& f) {

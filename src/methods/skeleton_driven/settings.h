@@ -5,6 +5,7 @@
 #include <string>
 
 #include "config/settings.h"
+#include "learning/joints/joint_model.h"
 #include "learning/skinning/heat_weights.h"
 #include "methods/skeleton_driven/inverse_kinematics.h"
 
@@ -18,8 +19,7 @@ enum class JointSource {
 
 struct DetectorSettings {
   std::filesystem::path model;  // folder
-  int votes = 8;
-  double vote_spread = 0.5;
+  joints::VoteSettings votes;
 
   void Describe(Fields& fields);
 };

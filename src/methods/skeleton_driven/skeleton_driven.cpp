@@ -32,7 +32,7 @@ class LearntFinder final : public JointFinder {
   explicit LearntFinder(const Settings& settings)
       : max_depth_m_(settings.max_depth_m),
         model_(Read(settings.detector.model)),
-        detector_(model_, settings.detector.votes, settings.detector.vote_spread) {}
+        detector_(model_, settings.detector.votes) {}
 
   GivenPoints Find(const DepthFrame& frame, const PinholeCamera& camera) const override {
     GivenPoints points;
