@@ -1,12 +1,12 @@
 #include "experiments/cli/learn_joints_command.h"
 
 #include <memory>
-#include <numeric>
 
 #include <CLI/CLI.hpp>
 
 #include "config/json_settings.h"
 #include "core/error.h"
+#include "math/statistics.h"
 #include "sequence/sequence.h"
 #include "subjects/learned_joints.h"
 #include "synth/sensor/joint_stand_in.h"
@@ -26,18 +26,19 @@ bool IsLearnt(const fs::path& folder, const Json& settings) {
 }
 
 void Print(const DetectionErrors& errors) {
-  fmt::print("{} images of other people in other poses\n{:<18} {:>8} {:>12} {:>12}\n",
-             errors.images, "point", "mean mm", "within 5 cm", "within 10 cm");
-  const auto mean = [](const auto& values) {
-    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  fmt::print("{} images of other people in other poses\n{:<16} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
+             errors.images, "point", "found %", "mean mm", "2 cm %", "5 cm %", "10 cm %");
+  const auto print = [](const std::string& name, double found, double mean_m, double within_2_cm,
+                        double within_5_cm, double within_10_cm) {
+    fmt::print("{:<16} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.1f}\n", name, 100.0 * found,
+               1e3 * mean_m, 100.0 * within_2_cm, 100.0 * within_5_cm, 100.0 * within_10_cm);
   };
   for (int p = 0; p < kBodyPointCount; ++p) {
-    fmt::print("{:<18} {:>8.1f} {:>10.1f} % {:>10.1f} %\n", BodyPoints()[p].name,
-               1e3 * errors.mean_m[p], 100.0 * errors.within_5_cm[p],
-               100.0 * errors.within_10_cm[p]);
+    print(BodyPoints()[p].name, errors.found[p], errors.mean_m[p], errors.within_2_cm[p],
+          errors.within_5_cm[p], errors.within_10_cm[p]);
   }
-  fmt::print("{:<18} {:>8.1f} {:>10.1f} % {:>10.1f} %\n", "all", 1e3 * mean(errors.mean_m),
-             100.0 * mean(errors.within_5_cm), 100.0 * mean(errors.within_10_cm));
+  print("all", Mean(errors.found), Mean(errors.mean_m), Mean(errors.within_2_cm),
+        Mean(errors.within_5_cm), Mean(errors.within_10_cm));
 }
 
 void LearnJointsFromConfig(const LearnJointsArguments& a) {

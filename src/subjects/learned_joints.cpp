@@ -1,5 +1,7 @@
 #include "subjects/learned_joints.h"
 
+#include <algorithm>
+
 namespace vitruvia {
 namespace {
 
@@ -40,15 +42,19 @@ DetectionErrors TestJointModel(const joints::JointModel& model,
   errors.images = others.images;
   const double share = 1.0 / others.images;
   for (const joints::JointExample& example : MakeJointExamples(others, threads)) {
-    const std::optional<BodyPointPositions> found =
+    const joints::DetectedPoints found =
         detector.Detect(WholeImage(example.depth, others.camera), others.camera, kFarthest_m);
     for (int p = 0; p < kBodyPointCount; ++p) {
-      const double error_m = ((found ? (*found)[p] : example.centroid) - example.points[p]).norm();
+      if (!found[p]) continue;
+      const double error_m = (*found[p] - example.points[p]).norm();
+      errors.found[p] += share;
+      errors.within_2_cm[p] += error_m <= 0.02 ? share : 0.0;
       errors.mean_m[p] += share * error_m;
       errors.within_5_cm[p] += error_m <= 0.05 ? share : 0.0;
       errors.within_10_cm[p] += error_m <= 0.10 ? share : 0.0;
     }
   }
+  for (int p = 0; p < kBodyPointCount; ++p) errors.mean_m[p] /= std::max(share, errors.found[p]);
   return errors;
 }
 

@@ -23,7 +23,9 @@ joints::JointModel LearnJointModel(const JointLearningSettings& settings, int th
 // Errors of a detector on images of other people of the same distribution, in other poses.
 struct DetectionErrors {
   int images = 0;
-  std::array<double, kBodyPointCount> mean_m{}, within_5_cm{}, within_10_cm{};  // shares
+  std::array<double, kBodyPointCount> mean_m{};  // where a point is found
+  std::array<double, kBodyPointCount> found{}, within_2_cm{}, within_5_cm{},
+      within_10_cm{};  // shares of all images
 };
 DetectionErrors TestJointModel(const joints::JointModel& model,
                                const JointLearningSettings& settings, int threads);

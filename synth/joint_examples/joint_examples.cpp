@@ -18,8 +18,8 @@
 namespace vitruvia {
 namespace {
 
-constexpr int kMostRejections = 200;  // of poses, one after the other
-constexpr double kFarthest_m = 10.0;  // of a measured point
+constexpr int kMostRejections = 200;    // of poses, one after the other
+constexpr float kSeenWithin_m = 0.02f;  // of the depth, a vertex is seen
 
 constexpr double kCalmReach = 0.3, kTrunkReach = 0.6;  // of a joint's range
 
@@ -137,6 +137,21 @@ joints::CroppedDepth Cropped(const DepthImage& depth) {
     }
   }
   return cropped;
+}
+
+// Pixels onto which vertices fall that the camera sees, each with its vertex' heaviest bone.
+std::vector<joints::LabelledPixel> Labels(const PosedExample& posed, const SkinWeights& weights,
+                                          const DepthImage& true_depth,
+                                          const PinholeCamera& camera) {
+  std::vector<joints::LabelledPixel> labels;
+  for (std::size_t v = 0; v < posed.vertices.size(); ++v) {
+    const Vector3f& vertex = posed.vertices[v];
+    const std::optional<Pixel> pixel = camera.PixelOf(vertex);
+    if (!pixel || std::abs(vertex.z() - true_depth(pixel->u, pixel->v)) > kSeenWithin_m) continue;
+    labels.push_back({static_cast<std::uint16_t>(pixel->u), static_cast<std::uint16_t>(pixel->v),
+                      weights.bones[v][0]});
+  }
+  return labels;
 }
 
 DepthImage MeasureExample(const JointExampleSettings& settings, const DepthImage& true_depth,
@@ -281,12 +296,10 @@ std::vector<joints::JointExample> MakeJointExamples(const JointExampleSettings& 
         RandomStream random(static_cast<std::uint64_t>(settings.seed),
                             fmt::format("joint example {}", number));
         const PosedExample posed = PoseExample(settings, body, random);
-        const DepthImage measured = MeasureExample(
-            settings, rasterizer->Render(posed.vertices, body.rest.triangles), random);
-        const std::optional<Vector3d> centroid =
-            joints::MeasuredCentroid(measured, settings.camera, kFarthest_m);
+        const DepthImage& true_depth = rasterizer->Render(posed.vertices, body.rest.triangles);
         examples[static_cast<std::size_t>(number)] = {
-            Cropped(measured), centroid.value_or(posed.points[0]), posed.points};
+            Cropped(MeasureExample(settings, true_depth, random)),
+            Labels(posed, body.weights, true_depth, settings.camera), posed.points};
         const std::lock_guard lock(progress_mutex);
         progress.Advance();
       }

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "config/settings.h"
 #include "learning/joints/learn_joints.h"
 #include "synth/population/population.h"
 #include "synth/sensor/sensor.h"
@@ -16,7 +17,7 @@ struct RandomPoseSettings {
   double calm_share = 0.5;
   double trunk_clearance_m = 0.16;
   double leg_clearance_m = 0.12;
-  double heading_deviation_deg = 35.0;
+  double heading_deviation_deg = 30.0;
   double tilt_deviation_deg = 8.0;
 
   void Describe(Fields& fields);
@@ -26,14 +27,14 @@ struct JointExampleSettings {
   PopulationSettings population;
   RefinementSettings mesh;
   int weight_diffusion = 4;
-  int images = 8000;
+  int images = 4000;
   RandomPoseSettings poses;
   PinholeCamera camera;
   std::array<double, 2> distance_m{1.8, 3.6};
   std::array<double, 2> camera_height_m{0.8, 1.4};
   double off_centre_m = 0.3;
   SensorSettings sensor;
-  double ideal_share = 0.5;
+  double ideal_share = 0.7;
   int seed = 1;
 
   JointExampleSettings();

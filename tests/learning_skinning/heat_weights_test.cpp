@@ -75,7 +75,7 @@ TEST_F(HeatWeightsOfABody, GiveTheMiddleOfALimbToItsBone) {
   int checked = 0;
   for (std::size_t v = 0; v < weights.size(); ++v) {
     const Vector3d vertex = body.rest.vertices[v].cast<double>();
-    if (std::abs(vertex.y() - middle.y()) > 0.06 || std::abs(vertex.x() - middle.x()) > 0.15)
+    if (std::abs(vertex.y() - middle.y()) > 0.1 || std::abs(vertex.x() - middle.x()) > 0.15)
       continue;
     EXPECT_EQ(weights.bones[v][0], static_cast<int>(BoneId::kLeftShin));
     EXPECT_GT(weights.weights[v][0], 0.75f);

@@ -1,11 +1,11 @@
-// A detector of joints in one depth image: regression forests that walk from joint to joint.
+// A detector of joints in one depth image: pixels vote through a forest
+// (learning/joints/voting_tree.h).
 //
-// After the random tree walk (Jung, Lee, Heo & Yun, CVPR 2015): the search for a joint starts at
-// its parent, the pelvis' at the mean of the measured points, and a forest says at each place where
-// the joint is from there. Departures: the forests give the mean offset, not a direction to step
-// in; each stage of the walk has forests of its own, learnt nearer and nearer to the joint; a step
-// averages the votes of fixed places round the last one instead of random steps. No frame knows of
-// the one before.
+// After Girshick, Shotton, Kohli, Criminisi & Fitzgibbon, ICCV 2011: every pixel of a grid comes to
+// a leaf of each tree and votes for the points that the leaf knows; a point is the mode of its
+// votes by mean shift. Departures: a leaf votes for a fixed number of points, its best, and a vote
+// weighs what its leaf's deviation and the pixel's area are worth. No frame knows of the one
+// before.
 #pragma once
 
 #include <filesystem>
@@ -16,49 +16,40 @@
 
 #include "body/body_points.h"
 #include "config/settings.h"
-#include "learning/joints/regression_tree.h"
+#include "learning/joints/voting_tree.h"
 
 namespace vitruvia::joints {
 
-using Forest = std::vector<RegressionTree>;
-
-struct JointStage {
-  double jitter_m =
-      0.0;  // standard deviation round the places that its forests learnt to start from
-  std::array<Forest, kBodyPointCount> forests;
-};
-
 struct JointModel {
-  std::vector<JointStage> stages;
+  std::vector<VotingTree> trees;
 };
 
-// The places that vote on each step: the last step's end, and others round it.
 struct VoteSettings {
-  int places = 8;
-  double spread = 1.0;
+  int stride_px = 3;
+  double deviation_m = 0.03;
+  double bandwidth_m = 0.06;
+  int shifts = 6;
 
   void Describe(Fields& fields);
 };
 
+// Each point where it was found, camera frame, metres; nothing where no pixel votes for it.
+using DetectedPoints = std::array<std::optional<Vector3d>, kBodyPointCount>;
+
 class JointDetector {
  public:
   // The model must outlive this.
-  JointDetector(const JointModel& model, const VoteSettings& votes);
+  JointDetector(const JointModel& model, const VoteSettings& settings)
+      : model_(model), settings_(settings) {}
 
-  // Camera frame, metres; nothing if no pixel is measured within max_depth_m. The image shows the
-  // person alone.
-  std::optional<BodyPointPositions> Detect(const DepthImage& depth, const PinholeCamera& camera,
-                                           double max_depth_m) const;
+  // The image shows the person alone.
+  DetectedPoints Detect(const DepthImage& depth, const PinholeCamera& camera,
+                        double max_depth_m) const;
 
  private:
   const JointModel& model_;
-  double spread_;
-  std::vector<Vector3f> places_;  // of votes, in standard deviations
+  VoteSettings settings_;
 };
-
-// The mean of the measured points, with which a search begins; nothing if there are none.
-std::optional<Vector3d> MeasuredCentroid(const DepthImage& depth, const PinholeCamera& camera,
-                                         double max_depth_m);
 
 // On disk, a folder: joints.json and trees.bin. `learnt_from`: settings, free form. DataError
 // naming what is missing or damaged.

@@ -12,33 +12,25 @@ namespace vitruvia::joints {
 namespace fs = std::filesystem;
 namespace {
 
-using Node = RegressionTree::Node;
+using Node = VotingTree::Node;
+using Leaf = VotingTree::Leaf;
 
 constexpr const char* kTreesFile = "trees.bin";
 static_assert(std::endian::native == std::endian::little, "nodes are copied as they lie");
-static_assert(sizeof(Node) == 40, "ten numbers of four bytes");
+static_assert(sizeof(Node) == 32, "eight numbers of four bytes");
+static_assert(sizeof(Leaf) == 20 * kLeafVotes, "five numbers of four bytes for each vote");
 
 struct ModelHeader {
   static constexpr StoredFormat kFormat{"vitruvia-joint-model", 1, 1, "learn the joints again"};
 
   std::vector<std::string> points;
-  std::vector<double> jitter_m;
-  int trees = 1;
-  std::vector<int> nodes;
+  std::vector<int> nodes, leaves;
   nlohmann::json learnt_from = nlohmann::json::object();
 
   void Describe(Fields& f) {
     f.Texts("points", points, {.meaning = "names of the points that are found, in order"});
-    f.NumberList(
-        "jitter_m", jitter_m,
-        {.meaning = "for each stage, how far round the places that earlier stages reach its "
-                    "trees have learnt to start",
-         .unit = "m",
-         .min = 0.0});
-    f.Integer("trees", trees, {.meaning = "trees for each stage and point", .min = 1, .max = 1000});
-    f.Integers("nodes", nodes,
-               {.meaning = "number of nodes of each tree in trees.bin: stage by stage, point by "
-                           "point"});
+    f.Integers("nodes", nodes, {.meaning = "number of nodes of each tree in trees.bin"});
+    f.Integers("leaves", leaves, {.meaning = "number of leaves of each tree in trees.bin"});
     f.FreeJson("learnt_from", learnt_from, {.meaning = "settings that the model was learnt with"});
   }
 };
@@ -49,42 +41,41 @@ std::vector<std::string> PointNames() {
   return names;
 }
 
-template <class Visit>
-void ForTrees(JointModel& model, const Visit& visit) {
-  for (JointStage& stage : model.stages) {
-    for (Forest& forest : stage.forests) {
-      for (RegressionTree& tree : forest) visit(tree);
+bool IsFinite(const Leaf& leaf) {
+  for (const PointVote& vote : leaf) {
+    for (const float x : {vote.deviation_m, vote.offset_m[0], vote.offset_m[1], vote.offset_m[2]}) {
+      if (!std::isfinite(x)) return false;
     }
   }
+  return true;
 }
 
-std::string TreeProblem(const RegressionTree& tree) {
-  const auto count = static_cast<std::int32_t>(tree.nodes.size());
-  for (std::int32_t i = 0; i < count; ++i) {
+std::string TreeProblem(const VotingTree& tree) {
+  const auto nodes = static_cast<std::int32_t>(tree.nodes.size());
+  const auto leaves = static_cast<std::int32_t>(tree.leaves.size());
+  for (std::int32_t i = 0; i < nodes; ++i) {
     const Node& node = tree.nodes[i];
     const bool is_leaf = node.left == -1;
-    if (!is_leaf && (node.left <= i || node.left + 1 >= count)) {
-      return fmt::format("node {} of {} names {} as the next", i, count, node.left);
-    }
+    if (!is_leaf && (node.left <= i || node.left + 1 >= nodes))
+      return fmt::format("node {} of {} names {} as the next", i, nodes, node.left);
+    if (is_leaf && (node.leaf < 0 || node.leaf >= leaves))
+      return fmt::format("node {} names leaf {} of {}", i, node.leaf, leaves);
     const auto kind = static_cast<std::int32_t>(node.feature.kind);
     if (kind != 0 && kind != 1) return fmt::format("node {} has a feature of kind {}", i, kind);
-    for (const float x :
-         {node.feature.x, node.feature.y, node.feature.other_x, node.feature.other_y,
-          node.threshold, node.offset_m[0], node.offset_m[1], node.offset_m[2]}) {
+    for (const float x : {node.feature.x, node.feature.y, node.feature.other_x,
+                          node.feature.other_y, node.threshold}) {
       if (!std::isfinite(x)) return fmt::format("node {} holds a number that is not finite", i);
     }
   }
-  return "";
-}
-
-JointModel EmptyModel(const ModelHeader& header) {
-  JointModel model;
-  for (const double jitter_m : header.jitter_m) {
-    JointStage& stage = model.stages.emplace_back();
-    stage.jitter_m = jitter_m;
-    for (Forest& forest : stage.forests) forest.resize(static_cast<std::size_t>(header.trees));
+  for (std::int32_t i = 0; i < leaves; ++i) {
+    if (!IsFinite(tree.leaves[i]))
+      return fmt::format("leaf {} holds a number that is not finite", i);
+    for (const PointVote& vote : tree.leaves[i]) {
+      if (vote.point < -1 || vote.point >= kBodyPointCount)
+        return fmt::format("leaf {} votes for point {} of {}", i, vote.point, kBodyPointCount);
+    }
   }
-  return model;
+  return "";
 }
 
 void CheckHeader(const ModelHeader& header, const fs::path& file) {
@@ -92,12 +83,31 @@ void CheckHeader(const ModelHeader& header, const fs::path& file) {
     throw DataError(fmt::format("{}: points: expected {}, got {}", file.string(),
                                 fmt::join(PointNames(), ", "), fmt::join(header.points, ", ")));
   }
-  const std::size_t trees =
-      header.jitter_m.size() * kBodyPointCount * static_cast<std::size_t>(header.trees);
-  if (header.nodes.size() != trees || trees == 0) {
-    throw DataError(fmt::format("{}: nodes: {} numbers, expected one for each of {} trees",
-                                file.string(), header.nodes.size(), trees));
+  if (header.nodes.empty() || header.nodes.size() != header.leaves.size()) {
+    throw DataError(
+        fmt::format("{}: {} numbers of nodes and {} of leaves, expected one of each "
+                    "for every tree, of which there is one at least",
+                    file.string(), header.nodes.size(), header.leaves.size()));
   }
+}
+
+// Takes `count` records off the front of the bytes that are left.
+template <class Record>
+std::vector<Record> Take(int count, std::string_view& left, const fs::path& file) {
+  const std::size_t size = static_cast<std::size_t>(std::max(0, count)) * sizeof(Record);
+  if (count < 1 || size > left.size()) {
+    throw DataError(fmt::format("{}: too short for the nodes and leaves that {} counts",
+                                file.string(), kJointModelFile));
+  }
+  std::vector<Record> records(static_cast<std::size_t>(count));
+  std::memcpy(static_cast<void*>(records.data()), left.data(), size);
+  left.remove_prefix(size);
+  return records;
+}
+
+template <class Record>
+void Append(const std::vector<Record>& records, std::string& bytes) {
+  bytes.append(reinterpret_cast<const char*>(records.data()), records.size() * sizeof(Record));
 }
 
 }  // namespace
@@ -105,21 +115,17 @@ void CheckHeader(const ModelHeader& header, const fs::path& file) {
 void WriteJointModel(const fs::path& folder, const JointModel& model,
                      const nlohmann::json& learnt_from) {
   ModelHeader header;
-  header.learnt_from = learnt_from;
   header.points = PointNames();
+  header.learnt_from = learnt_from;
   std::string bytes;
-  JointModel copy = model;
-  for (const JointStage& stage : model.stages) {
-    header.jitter_m.push_back(stage.jitter_m);
-    header.trees = static_cast<int>(stage.forests.front().size());
-  }
-  ForTrees(copy, [&](const RegressionTree& tree) {
+  for (const VotingTree& tree : model.trees) {
     header.nodes.push_back(static_cast<int>(tree.nodes.size()));
-    bytes.append(reinterpret_cast<const char*>(tree.nodes.data()),
-                 tree.nodes.size() * sizeof(Node));
-  });
+    header.leaves.push_back(static_cast<int>(tree.leaves.size()));
+    Append(tree.nodes, bytes);
+    Append(tree.leaves, bytes);
+  }
   StagedFolder staged(folder, kJointModelFile);
-  WriteStored(staged.path() / kJointModelFile, header, -1);
+  WriteStored(staged.path() / kJointModelFile, header);
   WriteWholeFile(staged.path() / kTreesFile, bytes);
   staged.Commit();
 }
@@ -132,27 +138,21 @@ JointModel ReadJointModel(const fs::path& folder) {
   const fs::path header_file = folder / kJointModelFile, trees_file = folder / kTreesFile;
   const auto header = ReadStored<ModelHeader>(header_file);
   CheckHeader(header, header_file);
-  JointModel model = EmptyModel(header);
   const std::string bytes = ReadWholeFile(trees_file);
-  std::size_t at = 0, tree_number = 0;
-  ForTrees(model, [&](RegressionTree& tree) {
-    const int count = header.nodes[tree_number++];
-    const std::size_t size = static_cast<std::size_t>(std::max(0, count)) * sizeof(Node);
-    if (count < 1 || at + size > bytes.size()) {
-      throw DataError(fmt::format("{}: {} bytes, too few for the nodes that {} counts",
-                                  trees_file.string(), bytes.size(), kJointModelFile));
-    }
-    tree.nodes.resize(static_cast<std::size_t>(count));
-    std::memcpy(tree.nodes.data(), bytes.data() + at, size);
-    at += size;
+  std::string_view left = bytes;
+  JointModel model;
+  for (std::size_t t = 0; t < header.nodes.size(); ++t) {
+    VotingTree tree;
+    tree.nodes = Take<Node>(header.nodes[t], left, trees_file);
+    tree.leaves = Take<Leaf>(header.leaves[t], left, trees_file);
     const std::string problem = TreeProblem(tree);
-    if (!problem.empty()) {
-      throw DataError(fmt::format("{}: tree {}: {}", trees_file.string(), tree_number, problem));
-    }
-  });
-  if (at != bytes.size()) {
-    throw DataError(
-        fmt::format("{}: {} bytes, expected {}", trees_file.string(), bytes.size(), at));
+    if (!problem.empty())
+      throw DataError(fmt::format("{}: tree {}: {}", trees_file.string(), t, problem));
+    model.trees.push_back(std::move(tree));
+  }
+  if (!left.empty()) {
+    throw DataError(fmt::format("{}: {} bytes more than {} counts", trees_file.string(),
+                                left.size(), kJointModelFile));
   }
   return model;
 }

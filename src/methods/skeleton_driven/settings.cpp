@@ -4,7 +4,7 @@ namespace vitruvia::skeleton_driven {
 
 void DetectorSettings::Describe(Fields& f) {
   f.File("model", model, {.meaning = "folder of a joint model (vitruvia learn joints)"});
-  f.Section("votes", votes, {.meaning = "the places that vote on each step to a joint"});
+  f.Section("votes", votes, {.meaning = "how pixels vote for joints"});
 }
 
 void Settings::Describe(Fields& f) {

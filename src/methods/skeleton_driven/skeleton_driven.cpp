@@ -1,7 +1,5 @@
 #include "methods/skeleton_driven/skeleton_driven.h"
 
-#include <algorithm>
-
 #include "core/error.h"
 #include "learning/joints/joint_model.h"
 #include "tracking/frame_checks.h"
@@ -35,11 +33,7 @@ class LearntFinder final : public JointFinder {
         detector_(model_, settings.detector.votes) {}
 
   GivenPoints Find(const DepthFrame& frame, const PinholeCamera& camera) const override {
-    GivenPoints points;
-    const std::optional<BodyPointPositions> found =
-        detector_.Detect(frame.depth, camera, max_depth_m_);
-    if (found) std::copy(found->begin(), found->end(), points.begin());
-    return points;
+    return detector_.Detect(frame.depth, camera, max_depth_m_);
   }
 
  private:
