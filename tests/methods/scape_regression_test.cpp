@@ -119,6 +119,7 @@ TEST_F(ScapeBodyOfATinyBody, ARigidMotionMovesTheSurfaceRigidly) {
 TEST_F(ScapeBodyOfATinyBody, TheGradientIsHalfTheDerivativeOfTheEnergy) {
   Settings settings;
   settings.fit.pose_change_weight = 2.0;
+  settings.fit.pose_weight = 0.5;
   const ScapePose pose = SomePose(0.1), last = scape.RestPose(kCameraFromSubject);
   const std::vector<Vector3f> vertices = Surface(pose);
   ScapePose truth = SomePose(0.15);

@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "body/pose_statistics.h"
 #include "math/rotation_derivatives.h"
 
 namespace vitruvia::scape_regression {
@@ -55,6 +56,17 @@ class RowSum {
   int count_ = 0;
 };
 
+// Three rows of a joint's turn, which its bone and the parent bring about the opposite way.
+void AddTurn(int bone, double weight, const Vector3d& residual, const Matrix3<double>& by_own,
+             RowSum& sum) {
+  for (int k = 0; k < 3; ++k) {
+    ScapeBody::Row row = ScapeBody::Row::Zero();
+    row.segment<3>(3 + 3 * bone) = by_own.row(k);
+    row.segment<3>(3 + 3 * Bones()[bone].parent) = -by_own.row(k);
+    sum.Add(weight, residual[k], row);
+  }
+}
+
 // Δr of the pose less that of the last one, in units.
 std::array<Vector3d, kBoneCount> PoseChange(const ScapePose& pose, const ScapePose& last) {
   const auto now = JointRotationVectors(pose.rotations),
@@ -62,6 +74,21 @@ std::array<Vector3d, kBoneCount> PoseChange(const ScapePose& pose, const ScapePo
   std::array<Vector3d, kBoneCount> change;
   for (int b = 0; b < kBoneCount; ++b) change[b] = (now[b] - before[b]) / kChangeUnit_rad;
   return change;
+}
+
+// Each joint's turn away from its mean in captured motion, in the mean's axes.
+std::array<Vector3d, kBoneCount> Unusualness(const ScapePose& pose) {
+  std::array<Vector3d, kBoneCount> turns;
+  turns[0].setZero();
+  for (int b = 1; b < kBoneCount; ++b) {
+    const Matrix3<double> local = pose.rotations[Bones()[b].parent].transpose() * pose.rotations[b];
+    turns[b] = LogSo3<double>(CapturedPoseStatistics()[b].mean.transpose() * local);
+  }
+  return turns;
+}
+
+Vector3d PerDeviation(int bone) {
+  return CapturedPoseStatistics()[bone].deviation_rad.cwiseInverse();
 }
 
 }  // namespace
@@ -96,6 +123,11 @@ Energies FrameEnergy::Of(const Pairs& pairs, const std::vector<Vector3f>& vertic
   }
   for (const Vector3d& change : PoseChange(pose, last))
     energies.pose_change += settings_.fit.pose_change_weight * change.squaredNorm();
+  const auto turns = Unusualness(pose);
+  for (int b = 1; b < kBoneCount; ++b) {
+    energies.pose +=
+        settings_.fit.pose_weight * turns[b].cwiseProduct(PerDeviation(b)).squaredNorm();
+  }
   return energies;
 }
 
@@ -123,15 +155,14 @@ NormalEquations FrameEnergy::Linearized(const Pairs& pairs, const std::vector<Ve
                 body_.RowOf(at, pair.vertex, Gradient(pair, camera_, vertex)));
       }
     }
-    const auto change = PoseChange(pose, last);
+    const auto change = PoseChange(pose, last), turns = Unusualness(pose);
     for (int b = 1; b < kBoneCount; ++b) {
-      const Matrix3<double> by_own = at.turn_by_own[b] / kChangeUnit_rad;
-      for (int k = 0; k < 3; ++k) {
-        ScapeBody::Row row = ScapeBody::Row::Zero();
-        row.segment<3>(3 + 3 * b) = by_own.row(k);
-        row.segment<3>(3 + 3 * Bones()[b].parent) = -by_own.row(k);
-        sum.Add(settings_.fit.pose_change_weight, change[b][k], row);
-      }
+      AddTurn(b, settings_.fit.pose_change_weight, change[b], at.turn_by_own[b] / kChangeUnit_rad,
+              sum);
+      AddTurn(b, settings_.fit.pose_weight, turns[b].cwiseProduct(PerDeviation(b)),
+              PerDeviation(b).asDiagonal() * InverseRightJacobian(turns[b]) *
+                  pose.rotations[b].transpose(),
+              sum);
     }
   }
   return equations;

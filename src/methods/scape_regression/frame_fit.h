@@ -17,8 +17,8 @@ const char* Name(TimedStep step);
 
 // In mm².
 struct Energies {
-  double depth = 0.0, contour = 0.0, pose_change = 0.0;
-  double total() const { return depth + contour + pose_change; }
+  double depth = 0.0, contour = 0.0, pose_change = 0.0, pose = 0.0;
+  double total() const { return depth + contour + pose_change + pose; }
 };
 
 struct NormalEquations {
@@ -26,8 +26,8 @@ struct NormalEquations {
   Eigen::Matrix<double, ScapeBody::kParameters, 1> gradient;
 };
 
-// How far a frame's energy is from what it would be without the kernel: E = mean ρ(depth) +
-// weight · (mean ρ(contours one way) + mean ρ(the other way)) + pose change.
+// E = mean ρ(depth) + weight · (mean ρ(contours one way) + mean ρ(the other way)) + change of the
+// pose since the last frame + how unusual it is (body/pose_statistics.h).
 class FrameEnergy {
  public:
   FrameEnergy(const ScapeBody& body, const PinholeCamera& camera, const Settings& settings)

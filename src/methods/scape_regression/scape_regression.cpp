@@ -96,7 +96,8 @@ TrackResult ScapeRegression::TrackFrame(const DepthFrame& frame) {
     fit = s.fit.Fit(frame.depth, start, *s.last,
                     is_first ? settings_.fit.first_frame_iterations : settings_.fit.iterations,
                     s.vertices, s.clock);
-    s.before = is_first ? fit.pose : *s.last;
+    const bool is_lost = fit.supported < settings_.lost_below;
+    s.before = is_first || is_lost ? fit.pose : *s.last;
     s.last = fit.pose;
     s.motions = s.body.PartMotions(s.vertices);
     ReportOutcome(fit, result);
@@ -110,7 +111,8 @@ TrackResult ScapeRegression::TrackFrame(const DepthFrame& frame) {
   result.iterations = fit.iterations;
   result.energies = {{"depth", fit.energies.depth},
                      {"contour", fit.energies.contour},
-                     {"pose_change", fit.energies.pose_change}};
+                     {"pose_change", fit.energies.pose_change},
+                     {"pose", fit.energies.pose}};
   s.clock.Lap(TimedStep::kSurface);
   result.step_ms = s.clock.times().Named();
   return result;

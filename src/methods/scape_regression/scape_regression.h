@@ -30,7 +30,7 @@ class ScapeRegression final : public Tracker {
   ~ScapeRegression() override;
 
   void Start(const Subject& subject, const PinholeCamera& camera) override;
-  // Energies: depth, contour, pose change, in mm².
+  // Energies: depth, contour, change of the pose, unusualness of the pose, in mm².
   TrackResult TrackFrame(const DepthFrame& frame) override;
 
  private:

@@ -68,7 +68,8 @@ void FitSettings::Describe(Fields& f) {
             .origin = Origin::kGuessed});
   f.Number(
       "last_kernel_m", last_kernel_m,
-      {.meaning = "that scale in the last step; in between it falls by the same factor each time",
+      {.meaning = "scale of the Geman–McClure kernel from the middle of a frame's steps on; until "
+                  "then it falls by the same factor each time",
        .unit = "m",
        .min = 1e-3,
        .max = 10.0,
@@ -79,8 +80,17 @@ void FitSettings::Describe(Fields& f) {
             .min = 0.0,
             .max = 1e6,
             .origin = Origin::kGuessed});
+  f.Number("pose_weight", pose_weight,
+           {.meaning = "weight of a joint's turn of one standard deviation of captured motion away "
+                       "from its mean, against a mean squared residual of 1 mm²",
+            .min = 0.0,
+            .max = 1e6,
+            .origin = Origin::kGuessed,
+            .source = "Weiss et al. 2011 have a prior on pose; recalled, its form is open"});
   f.Number("prediction", prediction,
-           {.meaning = "share of the last frame's motion that a frame begins with",
+           {.meaning =
+                "share of the last frame's motion that a frame begins with, unless that frame was "
+                "lost",
             .min = 0.0,
             .max = 1.0,
             .origin = Origin::kGuessed,

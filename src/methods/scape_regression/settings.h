@@ -30,6 +30,7 @@ struct FitSettings {
   int first_frame_iterations = 40;
   double first_kernel_m = 0.05, last_kernel_m = 0.02;
   double pose_change_weight = 0.05;
+  double pose_weight = 0.02;
   double prediction = 0.8;
   double stop_rad = 1e-3;
   void Describe(Fields& fields);
