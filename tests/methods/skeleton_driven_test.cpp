@@ -83,7 +83,7 @@ TEST_F(InverseKinematicsOfABody, FindsTheJointsOfAPoseFromTheirPositions) {
   settings.stop_rad = 1e-6;
   const auto found = InverseKinematics(skeleton, settings).Find(PointsOf(skeleton, bones));
   ASSERT_TRUE(found);
-  EXPECT_LT(found->rms_m, 1e-4);
+  EXPECT_LT(found->median_m, 1e-4);
 }
 
 TEST_F(InverseKinematicsOfABody, KeepsTheLengthsOfTheBones) {

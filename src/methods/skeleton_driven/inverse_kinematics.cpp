@@ -10,6 +10,7 @@
 #include "math/rigid_fit.h"
 #include "math/rotation.h"
 #include "math/rotation_derivatives.h"
+#include "math/statistics.h"
 
 namespace vitruvia::skeleton_driven {
 namespace {
@@ -130,10 +131,12 @@ std::optional<FoundPose> InverseKinematics::Find(const GivenPoints& points) cons
   }
   found.point_energy = energy.points;
   found.pose_energy = energy.pose;
-  const auto given = std::count_if(points.begin(), points.end(), [](const auto& p) { return !!p; });
-  found.rms_m = settings_.point_deviation_m *
-                std::sqrt(rows.residuals.head<InverseKinematicsRows::kPointRows>().squaredNorm() /
-                          static_cast<double>(given));
+  std::vector<double> distances_m;
+  for (int p = 0; p < kBodyPointCount; ++p) {
+    if (points[p])
+      distances_m.push_back(settings_.point_deviation_m * rows.residuals.segment<3>(3 * p).norm());
+  }
+  found.median_m = Quantile(distances_m, 0.5);
   return found;
 }
 

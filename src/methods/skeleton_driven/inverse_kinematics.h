@@ -40,7 +40,7 @@ struct FoundPose {
   int iterations = 0;
   bool converged = false;
   double point_energy = 0.0, pose_energy = 0.0;
-  double rms_m = 0.0;  // distance of the posed points from the given ones
+  double median_m = 0.0;  // distance of the posed points from the given ones
 };
 
 // The residuals at a pose and their derivatives by a step: translation of the pelvis, then for each

@@ -30,7 +30,7 @@ void Settings::Describe(Fields& f) {
             .origin = Origin::kGuessed});
   f.Number("lost_above_m", lost_above_m,
            {.meaning = "lost if a skeleton of the subject's bone lengths misses the found joints "
-                       "by more, root mean square",
+                       "by more in the median",
             .unit = "m",
             .min = 0.0,
             .max = 10.0,

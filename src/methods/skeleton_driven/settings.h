@@ -31,7 +31,7 @@ struct Settings {
   InverseKinematicsSettings pose;
   skinning::HeatWeightSettings weights;
   double max_depth_m = 8.0;
-  double lost_above_m = 0.15;
+  double lost_above_m = 0.1;
 
   void Describe(Fields& fields);
   std::string Problem() const;

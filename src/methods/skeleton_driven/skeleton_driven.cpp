@@ -126,10 +126,11 @@ TrackResult SkeletonDriven::TrackFrame(const DepthFrame& frame) {
   if (!found) {
     result.outcome = Outcome::kNoData;
     result.message = "too few joints are found; the pose is carried over";
-  } else if (pose.rms_m > settings_.lost_above_m) {
+  } else if (pose.median_m > settings_.lost_above_m) {
     result.outcome = Outcome::kLost;
-    result.message = fmt::format("the subject's skeleton misses the found joints by {:.0f} mm",
-                                 1e3 * pose.rms_m);
+    result.message =
+        fmt::format("the subject's skeleton misses the found joints by {:.0f} mm in the median",
+                    1e3 * pose.median_m);
   } else if (pose.converged) {
     result.outcome = Outcome::kConverged;
   } else {
