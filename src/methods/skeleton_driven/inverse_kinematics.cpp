@@ -1,6 +1,5 @@
 #include "methods/skeleton_driven/inverse_kinematics.h"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
