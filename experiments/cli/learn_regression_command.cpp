@@ -18,8 +18,14 @@ struct LearnRegressionArguments {
 
 void LearnRegressionFromConfig(const LearnRegressionArguments& a) {
   const auto settings = ReadSettingsFile<RegressionLearningSettings>(a.config);
+  const Json resolved = WriteSettings(settings);
+  if (fs::exists(a.output / kPoseRegressionFile) && ReadRegressionOrigin(a.output) == resolved) {
+    fmt::print("{}: learnt with these settings already; delete it to learn again\n",
+               a.output.string());
+    return;
+  }
   const LearnedRegression learnt = LearnRegression(settings);
-  WritePoseRegression(a.output, learnt.regression, WriteSettings(settings));
+  WritePoseRegression(a.output, learnt.regression, resolved);
   const RegressionErrors& errors = learnt.errors;
   fmt::print(
       "surfaces of true part rotations against pose examples, mean distance\n"

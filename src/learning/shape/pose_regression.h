@@ -100,5 +100,6 @@ inline constexpr const char* kPoseRegressionFile = "regression.json";
 void WritePoseRegression(const std::filesystem::path& folder, const PoseRegression& regression,
                          const nlohmann::json& learnt_from);
 PoseRegression ReadPoseRegression(const std::filesystem::path& folder);
+nlohmann::json ReadRegressionOrigin(const std::filesystem::path& folder);  // learnt_from
 
 }  // namespace vitruvia

@@ -88,6 +88,10 @@ void WritePoseRegression(const fs::path& folder, const PoseRegression& regressio
   staged.Commit();
 }
 
+nlohmann::json ReadRegressionOrigin(const fs::path& folder) {
+  return ReadStored<RegressionHeader>(folder / kPoseRegressionFile).learnt_from;
+}
+
 PoseRegression ReadPoseRegression(const fs::path& folder) {
   const auto header = ReadStored<RegressionHeader>(folder / kPoseRegressionFile);
   const fs::path file = folder / kTrianglesFile;
