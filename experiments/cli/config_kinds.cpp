@@ -13,9 +13,13 @@
 #include "importers/mesh_import.h"
 #include "records/estimate.h"
 #include "subjects/fitted_subject.h"
+#include "subjects/learned_joints.h"
+#include "subjects/learned_regression.h"
 #include "subjects/rig.h"
 #include "subjects/scan.h"
 #include "synth/motions/keyframes_file.h"
+#include "synth/sensor/joint_stand_in.h"
+#include "tracking/joint_observations.h"
 
 namespace vitruvia {
 namespace {
@@ -42,6 +46,12 @@ const std::vector<ConfigKind>& ConfigKinds() {
         {"method", "a tracking method and its settings", VisitMethodFile, MethodFileSchema},
         {"scan", "a camera that moves round a person", VisitDefaults<ScanSettings>, nullptr},
         {"learning", "what is learnt from a population", VisitDefaults<LearningSettings>, nullptr},
+        {"joint_learning", "how a joint detector is learnt", VisitDefaults<JointLearningSettings>,
+         nullptr},
+        {"pose_regression", "how deformations by the pose are learnt",
+         VisitDefaults<RegressionLearningSettings>, nullptr},
+        {"joint_stand_in", "noise of a stand-in for a joint detector",
+         VisitDefaults<JointStandInSettings>, nullptr},
         {"fit", "how a shape is fitted to a scan", VisitDefaults<IntrinsicShapeSettings>, nullptr},
         {"subject", "a subject that is scanned and fitted", VisitSubjectFile, nullptr},
         {"rig", "how meshes are made a subject", VisitDefaults<RigSettings>, nullptr},
@@ -58,6 +68,8 @@ const std::vector<ConfigKind>& ConfigKinds() {
         StoredKind<ExperimentSummary>("summary", "summary.json: an experiment's numbers"),
         StoredKind<ExperimentRecord>("experiment_record", "experiment.json in an output folder"),
         StoredKind<GateBaseline>("baseline", "baseline of the regression gate"),
+        StoredKind<JointObservations>("joint_observations",
+                                      "joints found in each frame of a sequence"),
         StoredKind<RegressionFile>("regression_report", "regression.json: the gate's findings")};
     for (const MethodInfo& method : Methods()) {
       list.push_back(

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "experiments/cli/learn_joints_command.h"
+#include "experiments/cli/learn_regression_command.h"
 #include "experiments/cli/learn_shape_command.h"
 #include "experiments/cli/learn_weights_command.h"
 
@@ -14,6 +16,8 @@ void AddLearnCommand(CLI::App& app) {
   AddLearnShapeCommand(*learn);
   AddLearnWeightsCommand(*learn);
   AddLearnComparisonCommand(*learn);
+  AddLearnJointsCommand(*learn);
+  AddLearnRegressionCommand(*learn);
 }
 
 }  // namespace vitruvia

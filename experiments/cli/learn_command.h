@@ -1,4 +1,4 @@
-// `vitruvia learn database | shape | weights | compare`.
+// `vitruvia learn database | shape | weights | compare | joints | pose-regression`.
 #pragma once
 
 namespace CLI {

@@ -12,6 +12,8 @@
 #include "methods/gmm_articulated/gmm_articulated.h"
 #include "methods/realtime_scape/realtime_scape.h"
 #include "methods/sdf_parts/sdf_parts.h"
+#include "methods/scape_regression/scape_regression.h"
+#include "methods/skeleton_driven/skeleton_driven.h"
 
 namespace vitruvia {
 namespace {
@@ -47,6 +49,12 @@ const std::vector<Entry>& Entries() {
           "sdf_parts", "baseline: rigid parts with signed distance fields, after DART"),
       MakeEntry<gmm_articulated::GmmArticulated, gmm_articulated::Settings>(
           "gmm_articulated", "baseline: mixture of Gaussians with joints, after Ye & Yang"),
+      MakeEntry<skeleton_driven::SkeletonDriven, skeleton_driven::Settings>(
+          "skeleton_driven",
+          "baseline of paper A: joints found in each frame move a rig with heat-diffusion weights"),
+      MakeEntry<scape_regression::ScapeRegression, scape_regression::Settings>(
+          "scape_regression",
+          "baseline of paper A: SCAPE by regression, fitted to depth and contour, offline"),
       MakeEntry<external::External, external::Settings>(
           "external", "a tracker of your own: a program (src/methods/external/PROTOCOL.md)")};
   return entries;

@@ -5,6 +5,7 @@
 namespace vitruvia::bench {
 
 std::vector<Row> Baselines();
+std::vector<Row> BaselineModels();
 std::vector<Row> FitShape();
 std::vector<Row> Growth();
 std::vector<Row> ImportDepth();
@@ -15,6 +16,7 @@ std::vector<Row> Starts();
 std::span<const Group> Groups() {
   static constexpr std::array kGroups = {
       Group{"baselines", Baselines},
+      Group{"baseline_models", BaselineModels},
       Group{"fit_shape", FitShape},
       Group{"growth", Growth},
       Group{"import_depth", ImportDepth},

@@ -102,10 +102,16 @@ class SchemaCheck {
 };
 
 std::string KindOf(const fs::path& file, const Json& config) {
-  const std::map<std::string, std::string> folders = {
-      {"scenes", "scene"},      {"methods", "method"},       {"scans", "scan"},
-      {"learning", "learning"}, {"subjects", "subject"},     {"skeletons", "skeleton"},
-      {"motions", "motion"},    {"imports", "import_meshes"}};
+  const std::map<std::string, std::string> folders = {{"scenes", "scene"},
+                                                      {"methods", "method"},
+                                                      {"scans", "scan"},
+                                                      {"learning", "learning"},
+                                                      {"subjects", "subject"},
+                                                      {"skeletons", "skeleton"},
+                                                      {"motions", "motion"},
+                                                      {"imports", "import_meshes"},
+                                                      {"joints", "joint_learning"},
+                                                      {"pose_regression", "pose_regression"}};
   const fs::path configs = fs::path(VITRUVIA_SOURCE_DIR) / "configs";
   const auto found = folders.find(file.lexically_relative(configs).begin()->string());
   if (found != folders.end()) return found->second;

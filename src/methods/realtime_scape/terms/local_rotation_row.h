@@ -1,25 +1,14 @@
 // How far a bone's local rotation is from a reference, and how that depends on the unknowns.
 #pragma once
 
-#include <cmath>
 #include <numbers>
 
 #include "math/rotation.h"
+#include "math/rotation_derivatives.h"
 #include "methods/realtime_scape/body_pose.h"
 #include "solver/block_normal_equations.h"
 
 namespace vitruvia::realtime_scape {
-
-// The inverse of the right Jacobian of the exponential map: log(exp(d) exp(e)) ≈ d + J⁻¹(d) e. For
-// angles below 2π.
-inline Matrix3<double> InverseRightJacobian(const Vector3d& rotation_vector) {
-  const double angle = rotation_vector.norm();
-  const Matrix3<double> skew = Skew<double>(rotation_vector);
-  const double second = angle < 1e-4
-                            ? 1.0 / 12.0
-                            : 1.0 / (angle * angle) - 1.0 / (2.0 * angle * std::tan(0.5 * angle));
-  return Matrix3<double>::Identity() + 0.5 * skew + second * skew * skew;
-}
 
 // The other rotation vector of the same rotation, at an angle of π … 2π where the first is at 0 …
 // π.

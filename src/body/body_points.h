@@ -1,0 +1,29 @@
+// The points of a body that a joint detector finds: its joints, and the tips of its leaf bones.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "body/skeleton.h"
+
+namespace vitruvia {
+
+inline constexpr int kBodyPointCount = kBoneCount + 5;
+
+struct BodyPointInfo {
+  std::string name;  // of the joint; of a tip "head_tip", "left_hand_tip", …
+  int bone;          // that the point is fixed to: the joint's bone, or the bone of the tip
+  bool is_tip;       // the bone's distal end; otherwise its proximal one
+  int parent;  // the point before it on the way from the pelvis, always of smaller index; −1
+};
+// The joints in the order of BoneId, then the tips.
+const std::array<BodyPointInfo, kBodyPointCount>& BodyPoints();
+int FindBodyPoint(std::string_view name);  // −1 if there is none
+
+using BodyPointPositions = std::array<Vector3<double>, kBodyPointCount>;  // metres
+
+BodyPointPositions RestPoints(const Skeleton& skeleton);  // subject frame
+BodyPointPositions PosedPoints(const Skeleton& skeleton, const BoneTransforms& posed_from_rest);
+
+}  // namespace vitruvia

@@ -1,0 +1,62 @@
+// A detector of joints in one depth image: pixels vote through a forest
+// (learning/joints/voting_tree.h).
+//
+// After Girshick, Shotton, Kohli, Criminisi & Fitzgibbon, ICCV 2011: every pixel of a grid comes to
+// a leaf of each tree and votes for the points that the leaf knows; a point is the mode of its
+// votes by mean shift. Departures: a leaf votes for a fixed number of points, its best, and a vote
+// weighs what its leaf's deviation and the pixel's area are worth. No frame knows of the one
+// before.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "body/body_points.h"
+#include "config/settings.h"
+#include "learning/joints/voting_tree.h"
+
+namespace vitruvia::joints {
+
+struct JointModel {
+  std::vector<VotingTree> trees;
+};
+
+struct VoteSettings {
+  int stride_px = 3;
+  double deviation_m = 0.03;
+  double bandwidth_m = 0.06;
+  int shifts = 6;
+
+  void Describe(Fields& fields);
+};
+
+// Each point where it was found, camera frame, metres; nothing where no pixel votes for it.
+using DetectedPoints = std::array<std::optional<Vector3d>, kBodyPointCount>;
+
+class JointDetector {
+ public:
+  // The model must outlive this.
+  JointDetector(const JointModel& model, const VoteSettings& settings)
+      : model_(model), settings_(settings) {}
+
+  // The image shows the person alone.
+  DetectedPoints Detect(const DepthImage& depth, const PinholeCamera& camera,
+                        double max_depth_m) const;
+
+ private:
+  const JointModel& model_;
+  VoteSettings settings_;
+};
+
+// On disk, a folder: joints.json and trees.bin. `learnt_from`: settings, free form. DataError
+// naming what is missing or damaged.
+inline constexpr const char* kJointModelFile = "joints.json";
+void WriteJointModel(const std::filesystem::path& folder, const JointModel& model,
+                     const nlohmann::json& learnt_from);
+JointModel ReadJointModel(const std::filesystem::path& folder);
+nlohmann::json ReadLearntFrom(const std::filesystem::path& folder);
+
+}  // namespace vitruvia::joints

@@ -1,0 +1,102 @@
+#include "learning/joints/learn_joints.h"
+
+#include <mutex>
+
+#include "core/error.h"
+#include "core/progress.h"
+#include "core/worker_team.h"
+
+namespace vitruvia::joints {
+namespace {
+
+std::vector<TrainingPixel> DrawPixels(const std::vector<JointExample>& examples,
+                                      const PinholeCamera& camera, const ForestSettings& settings,
+                                      RandomStream& random) {
+  std::vector<TrainingPixel> pixels;
+  for (const JointExample& example : examples) {
+    if (example.pixels.empty()) continue;
+    for (int k = 0; k < settings.pixels_per_image; ++k) {
+      const LabelledPixel& pixel = example.pixels[random.Index(example.pixels.size())];
+      const float z = example.depth.At(pixel.u, pixel.v);
+      if (z == 0.0f) continue;
+      const Vector3f position = camera.Unproject<float>(pixel.u, pixel.v, z);
+      pixels.push_back(
+          {&example.depth, FeaturePoint(camera, position), position, pixel.bone, &example.points});
+    }
+  }
+  return pixels;
+}
+
+}  // namespace
+
+void TreeSettings::Describe(Fields& f) {
+  f.Integer("depth", depth,
+            {.meaning = "splits from a tree's root to a leaf at most",
+             .min = 1,
+             .max = 30,
+             .origin = Origin::kGuessed,
+             .source = "Shotton et al. 2011: 20, with a hundred times the images"});
+  f.Integer("least_pixels", least_pixels,
+            {.meaning = "training pixels in a leaf at least",
+             .min = 1,
+             .max = 100000,
+             .origin = Origin::kGuessed});
+  f.Integer("candidates", candidates,
+            {.meaning = "features that are tried for a split",
+             .min = 1,
+             .max = 100000,
+             .origin = Origin::kGuessed,
+             .source = "Shotton et al. 2011: 2000"});
+  f.Integer("split_pixels", split_pixels,
+            {.meaning = "training pixels that a split's features are tried on at most",
+             .min = 10,
+             .max = 10000000,
+             .origin = Origin::kGuessed});
+  f.Number("reach_m", reach_m,
+           {.meaning = "how far from a pixel features look at most",
+            .unit = "m",
+            .min = 0.01,
+            .max = 3.0,
+            .origin = Origin::kGuessed,
+            .source = "open trainers of Shotton et al. 2011: 0.4 m"});
+}
+
+void ForestSettings::Describe(Fields& f) {
+  f.Integer("trees", trees,
+            {.meaning = "number of trees",
+             .min = 1,
+             .max = 100,
+             .origin = Origin::kGuessed,
+             .source = "Shotton et al. 2011: 3"});
+  f.Integer("pixels_per_image", pixels_per_image,
+            {.meaning = "pixels of each image that a tree learns from",
+             .min = 1,
+             .max = 100000,
+             .origin = Origin::kGuessed,
+             .source = "Shotton et al. 2011: 2000"});
+  f.Section("tree", tree, {.meaning = "how a tree grows"});
+  f.Integer("seed", seed, {.meaning = "seed of all random choices", .min = 0});
+}
+
+JointModel LearnJoints(const std::vector<JointExample>& examples, const PinholeCamera& camera,
+                       const ForestSettings& settings, int threads) {
+  JointModel model;
+  model.trees.resize(static_cast<std::size_t>(settings.trees));
+  Progress progress("trees", settings.trees);
+  std::mutex progress_mutex;
+  WorkerTeam team(threads);
+  team.For(settings.trees, 1, [&](int begin, int end) {
+    for (int t = begin; t < end; ++t) {
+      ThrowIfInterrupted();
+      RandomStream random(static_cast<std::uint64_t>(settings.seed), fmt::format("tree {}", t));
+      std::vector<TrainingPixel> pixels = DrawPixels(examples, camera, settings, random);
+      if (pixels.empty()) throw DataError("joint examples: no image shows a part of a body");
+      model.trees[static_cast<std::size_t>(t)] = GrowTree(pixels, settings.tree, random);
+      const std::lock_guard lock(progress_mutex);
+      progress.Advance();
+    }
+  });
+  return model;
+}
+
+}  // namespace vitruvia::joints

@@ -1,0 +1,73 @@
+// A decision tree over depth features: from a pixel on a body to votes for where joints are.
+//
+// Its splits tell apart the body parts that pixels show (Shotton et al. 2011); its leaves hold the
+// mean offsets of the points that its training pixels agree on best (Girshick et al. 2011).
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "body/body_points.h"
+#include "config/settings.h"
+#include "core/random.h"
+#include "learning/joints/depth_feature.h"
+
+namespace vitruvia::joints {
+
+// A pixel of a training image: the part that it shows, and where the points are.
+struct TrainingPixel {
+  const CroppedDepth* depth;
+  FeaturePoint place;
+  Vector3f position;  // camera frame, metres
+  int bone;
+  const BodyPointPositions* points;
+};
+
+inline constexpr int kLeafVotes = 6;
+
+struct PointVote {
+  std::int32_t point = -1;          // −1: no vote
+  float deviation_m = 0.0f;         // root mean square of what the training pixels differ by
+  std::array<float, 3> offset_m{};  // from the pixel's position to the point
+};
+
+struct TreeSettings {
+  int depth = 18;
+  int least_pixels = 20;
+  int candidates = 150;
+  int split_pixels = 2000;
+  double reach_m = 0.5;
+
+  void Describe(Fields& fields);
+};
+
+struct VotingTree {
+  struct Node {
+    DepthFeature feature;
+    float threshold = 0.0f;
+    std::int32_t left = -1;  // the right one follows it; −1: a leaf
+    std::int32_t leaf = -1;  // of a leaf
+  };
+  using Leaf = std::array<PointVote, kLeafVotes>;
+
+  std::vector<Node> nodes;  // the root first
+  std::vector<Leaf> leaves;
+
+  template <class View>
+  const Leaf& LeafOf(const View& view, const FeaturePoint& place) const {
+    const Node* node = nodes.data();
+    while (node->left >= 0) {
+      const bool goes_left = node->feature.Of(view, place) < node->threshold;
+      node = nodes.data() + node->left + (goes_left ? 0 : 1);
+    }
+    return leaves[static_cast<std::size_t>(node->leaf)];
+  }
+};
+
+// Each split is the one, of candidates drawn at random, that leaves the least entropy of the parts.
+// Reorders the pixels, of which there is one at least.
+VotingTree GrowTree(std::span<TrainingPixel> pixels, const TreeSettings& settings,
+                    RandomStream& random);
+
+}  // namespace vitruvia::joints

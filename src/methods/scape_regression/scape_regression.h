@@ -1,0 +1,47 @@
+// SCAPE with pose-dependent deformations by regression, fitted to each frame's depth and contour
+// (Weiss, Hirshberg & Black, ICCV 2011): what paper A's figure 8 compares with. Offline: about an
+// hour for a pose there.
+//
+// As in that figure the intrinsic shape is given: it is the subject's mesh. One view for each pose.
+// docs/baseline_models.md says what is sure of this and what is a reading.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "learning/shape/pose_regression.h"
+#include "methods/scape_regression/settings.h"
+#include "tracking/tracker.h"
+
+namespace vitruvia {
+struct PointCloud;
+}
+
+namespace vitruvia::scape_regression {
+
+struct FitResult;
+struct ScapePose;
+
+class ScapeRegression final : public Tracker {
+ public:
+  // Reads the pose regression. ConfigError if there is none, DataError if it is damaged.
+  explicit ScapeRegression(const Settings& settings);
+  ScapeRegression(const Settings& settings, PoseRegression regression);
+  ~ScapeRegression() override;
+
+  void Start(const Subject& subject, const PinholeCamera& camera) override;
+  // Energies: depth, contour, change of the pose, unusualness of the pose, in mm².
+  TrackResult TrackFrame(const DepthFrame& frame) override;
+
+ private:
+  struct Session;  // everything that depends on the subject and the camera
+
+  std::optional<ScapePose> FirstPose(const DepthImage& depth, const PointCloud& cloud);
+  void ReportOutcome(const FitResult& fit, TrackResult& result) const;
+
+  Settings settings_;
+  PoseRegression regression_;
+  std::unique_ptr<Session> session_;
+};
+
+}  // namespace vitruvia::scape_regression
