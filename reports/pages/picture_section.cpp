@@ -63,17 +63,19 @@ std::string StripHtml(const RunPictures& run, const PictureStrip& strip) {
 
 }  // namespace
 
+std::string RunPicturesHtml(const RunPictures& run) {
+  if (!run.problem.empty()) return fmt::format("<p>No pictures: {}</p>\n", Escaped(run.problem));
+  std::string html = PictureLegend(run);
+  for (const PictureStrip& strip : run.strips) html += StripHtml(run, strip);
+  return html;
+}
+
 std::string PictureSection(const std::vector<RunPictures>& runs) {
   std::string html = "<section id=\"pictures\"><h2>Pictures</h2>\n";
   std::size_t used_bytes = 0;
   for (const RunPictures& run : runs) {
     html += fmt::format("<h3 class=\"run\">{}</h3>\n", Escaped(run.run_id));
-    if (!run.problem.empty()) {
-      html += fmt::format("<p>No pictures: {}</p>\n", Escaped(run.problem));
-      continue;
-    }
-    std::string strips = PictureLegend(run);
-    for (const PictureStrip& strip : run.strips) strips += StripHtml(run, strip);
+    const std::string strips = RunPicturesHtml(run);
     if (used_bytes + strips.size() > kPictureBudget_bytes) {
       html += fmt::format(
           "<p>This run’s pictures are in <code>figures/pictures-{}.png</code>; they would make the "
