@@ -194,9 +194,20 @@ std::string TableHtml(const ShownTable& table, const std::vector<ReportedExperim
       Escaped(table.title), head, rows);
 }
 
+// Which of the two sets a figure of Stanford EVAL is made from; "" of other figures.
+std::string EvalNote(const ReproducedFigure& figure) {
+  if (figure.eval_experiments.empty()) return "";
+  return fmt::format("<p class=\"soft\">{}</p>\n",
+                     figure.experiments == figure.eval_experiments
+                         ? "Made from your own sequences of Stanford EVAL."
+                         : "Made from the synthetic set in the spirit of Stanford EVAL; your own "
+                           "sequences take its "
+                           "place where VITRUVIA_EVAL names their folder.");
+}
+
 // What of the experiments was left out, and where the numbers come from.
 std::string Origins(const ReproductionList& list, const FigureRecords& records) {
-  std::string html;
+  std::string html = EvalNote(records.figure);
   for (const fs::path& file : records.figure.experiments) {
     const ExperimentReduction* reduction = list.ReductionOf(file);
     if (reduction == nullptr) continue;
