@@ -42,6 +42,14 @@ std::string VerdictHtml(ClaimVerdict verdict, const std::string& reason) {
                      reason.empty() ? "" : ": " + Escaped(reason));
 }
 
+// What stands for the verdict of a figure: of one without a claim only what is missing.
+std::string OutcomeHtml(const ReproducedFigure& figure, const ClaimDecision& decision) {
+  if (!figure.claim.empty()) return VerdictHtml(decision.verdict, decision.reason);
+  return decision.reason.empty()
+             ? ""
+             : fmt::format("<span class=\"soft\">{}</span>", Escaped(decision.reason));
+}
+
 std::string Overview(const std::vector<FigureRecords>& figures,
                      const std::vector<ClaimDecision>& decisions) {
   std::string rows;
@@ -50,25 +58,32 @@ std::string Overview(const std::vector<FigureRecords>& figures,
     rows += fmt::format(
         "<tr><td><a href=\"#{0}\">{0}</a></td><td>{1}</td><td>{2}</td><td>{3}</td></tr>\n",
         Escaped(figure.id), Escaped(figure.title), Escaped(figure.claim),
-        VerdictHtml(decisions[i].verdict, decisions[i].reason));
+        OutcomeHtml(figure, decisions[i]));
   }
   return "<section id=\"overview\"><h2>All claims</h2>\n<div class=\"scroll\"><table><thead><tr>"
          "<th>figure</th><th>about</th><th>claim</th><th>verdict</th></tr></thead><tbody>\n" +
          rows + "</tbody></table></div></section>\n";
 }
 
-std::string Header(const ReproductionList& list, const std::vector<ClaimDecision>& decisions) {
-  const auto count = [&decisions](ClaimVerdict verdict) {
-    return std::count_if(decisions.begin(), decisions.end(),
-                         [verdict](const ClaimDecision& d) { return d.verdict == verdict; });
+std::string Header(const ReproductionList& list, const std::vector<FigureRecords>& figures,
+                   const std::vector<ClaimDecision>& decisions) {
+  const auto count = [&](ClaimVerdict verdict) {
+    int figures_with_it = 0;
+    for (std::size_t i = 0; i < figures.size(); ++i) {
+      const bool has_claim = !figures[i].figure.claim.empty();
+      figures_with_it += has_claim && decisions[i].verdict == verdict ? 1 : 0;
+    }
+    return figures_with_it;
   };
+  const int held = count(ClaimVerdict::kHolds), refuted = count(ClaimVerdict::kDoesNotHold);
+  const int untested = count(ClaimVerdict::kCannotBeTested);
   return fmt::format(
       "<header><h1>{}</h1><p>{}</p><p>Of {} figures and tables the claim <b "
       "class=\"met\">holds</b> "
       "in {}, <b class=\"missed\">does not hold here</b> in {} and cannot be tested here in "
       "{}.</p></header>\n",
-      Escaped(list.title), Escaped(list.description), decisions.size(), count(ClaimVerdict::kHolds),
-      count(ClaimVerdict::kDoesNotHold), count(ClaimVerdict::kCannotBeTested));
+      Escaped(list.title), Escaped(list.description), held + refuted + untested, held, refuted,
+      untested);
 }
 
 std::string TestsTable(const ReproducedFigure& figure, const ClaimDecision& decision) {
@@ -234,12 +249,17 @@ std::string FigureSection(const ReproductionList& list, const FigureRecords& rec
                           const ClaimDecision& decision, DrawingWriter& writer,
                           const fs::path& plots_folder) {
   const ReproducedFigure& figure = records.figure;
-  std::string html = fmt::format(
-      "<section id=\"{}\"><h2>{}: {}</h2>\n<p>{}</p>\n<dl><dt>published</dt><dd>{}</dd>"
-      "<dt>claim</dt><dd>{}</dd><dt>verdict</dt><dd>{}</dd></dl>\n",
-      Escaped(figure.id), Escaped(figure.place), Escaped(figure.title), Escaped(figure.caption),
-      Escaped(figure.published), Escaped(figure.claim),
-      VerdictHtml(decision.verdict, decision.reason));
+  std::string html =
+      fmt::format("<section id=\"{}\"><h2>{}: {}</h2>\n<p>{}</p>\n", Escaped(figure.id),
+                  Escaped(figure.place), Escaped(figure.title), Escaped(figure.caption));
+  if (figure.claim.empty()) {
+    html += fmt::format("<p>{}</p>\n", OutcomeHtml(figure, decision));
+  } else {
+    html += fmt::format(
+        "<dl><dt>published</dt><dd>{}</dd><dt>claim</dt><dd>{}</dd><dt>verdict</dt><dd>{}</dd>"
+        "</dl>\n",
+        Escaped(figure.published), Escaped(figure.claim), OutcomeHtml(figure, decision));
+  }
   html += TestsTable(figure, decision);
   for (const ShownTable& table : figure.tables) html += TableHtml(table, records.experiments);
   html += PicturesHtml(records);
@@ -255,7 +275,7 @@ void WriteReproductionPage(const ReproductionList& list, const std::vector<Figur
                            const fs::path& page) {
   std::vector<ClaimDecision> decisions;
   for (const FigureRecords& records : figures) decisions.push_back(DecideFigure(records));
-  std::string body = Header(list, decisions) + "<main>\n" + Overview(figures, decisions);
+  std::string body = Header(list, figures, decisions) + "<main>\n" + Overview(figures, decisions);
 
   DrawingWriter writer;
   MakeFolder(page.parent_path());

@@ -52,6 +52,7 @@ ClaimDecision DecideFigure(const FigureRecords& records) {
   std::string reason = figure.cannot_be_tested;
   if (reason.empty() && !records.problems.empty()) reason = records.problems.front();
   if (reason.empty()) reason = UnfinishedProblem(records.experiments);
+  if (figure.claim.empty()) decision.reason.clear();  // no test was asked for
   if (reason.empty()) return decision;
   decision.verdict = ClaimVerdict::kCannotBeTested;
   decision.reason = reason;

@@ -16,7 +16,7 @@ struct FigureRecords {
 };
 
 // The figure's verdict. A run that failed or is missing is not left out of a mean: with one the
-// claim cannot be tested.
+// claim cannot be tested. Of a figure without a claim only the reason counts: what is missing.
 ClaimDecision DecideFigure(const FigureRecords& records);
 
 // Only the runs of the method and variant and of the scenes that match.

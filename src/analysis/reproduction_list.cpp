@@ -57,10 +57,10 @@ void ReproducedFigure::Describe(Fields& f) {
   f.Text("place", place, {.meaning = "where it stands in the papers", .required = true});
   f.Text("title", title, {.meaning = "what it is about", .required = true});
   f.Text("caption", caption, {.meaning = "what our figure shows", .required = true});
-  f.Text("published", published,
-         {.meaning = "what the paper shows or prints there", .required = true});
+  f.Text("published", published, {.meaning = "what the paper shows or prints there"});
   f.Text("claim", claim,
-         {.meaning = "what the paper claims and supports by the figure", .required = true});
+         {.meaning = "what the paper claims and supports by the figure; empty for a figure of our "
+                     "own beside no claim"});
   f.Files("experiments", experiments,
           {.meaning = "experiment files that it is made from", .required = true});
   f.Files(
@@ -77,7 +77,10 @@ void ReproducedFigure::Describe(Fields& f) {
 
 std::string ReproducedFigure::Problem() const {
   if (experiments.empty()) return "experiments: expected at least one experiment file, got none";
-  if (tests.empty() == cannot_be_tested.empty())
+  const bool decides = !tests.empty() || !cannot_be_tested.empty();
+  if (claim.empty() && decides)
+    return fmt::format("{}: without a claim expected neither tests nor cannot_be_tested", id);
+  if (!claim.empty() && tests.empty() == cannot_be_tested.empty())
     return fmt::format("{}: expected either tests or cannot_be_tested", id);
   return "";
 }

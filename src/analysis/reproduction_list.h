@@ -47,7 +47,7 @@ struct ReproducedFigure {
   std::string id;     // "A11": how a command names it
   std::string place;  // "Paper A, figure 11"
   std::string title, caption;
-  std::string published, claim;
+  std::string published, claim;  // "": beside no claim of a paper
   std::vector<std::filesystem::path> experiments;
   // That take the place of `experiments` where the user has Stanford EVAL; empty: the same ones.
   std::vector<std::filesystem::path> eval_experiments;

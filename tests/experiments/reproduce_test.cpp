@@ -96,6 +96,9 @@ TEST(ReproductionListFile, IsReadStrictly) {
   changed["figures"][0]["cannot_be_tested"] = "no";
   EXPECT_THAT(refusal_of(changed), HasSubstr("expected either tests or cannot_be_tested"));
   changed = list;
+  changed["figures"][0].erase("claim");
+  EXPECT_THAT(refusal_of(changed), HasSubstr("without a claim expected neither tests"));
+  changed = list;
   changed["figures"][0]["tables"] = {{{"title", "t"}, {"metrics", {"l2_meen_m"}}}};
   EXPECT_THAT(refusal_of(changed), HasSubstr("l2_meen_m"));
   changed = list;
