@@ -6,7 +6,7 @@
 namespace vitruvia {
 namespace {
 
-constexpr double kColumnWidth = 138.0, kRowHeight = 34.0, kMargin = 16.0;
+constexpr double kColumnWidth = 138.0, kRowHeight = 38.0, kMargin = 16.0;
 constexpr double kNameSize = 12.0, kDetailSize = 10.0, kDotRadius = 4.0, kTextGap = 8.0;
 constexpr double kNameRise = 8.0, kDetailFall = 9.0;  // of the text beside a node
 constexpr Color kInk{0x22, 0x22, 0x22}, kSoftInk{0x5a, 0x63, 0x6b}, kLineInk{0xBB, 0xBB, 0xBB};

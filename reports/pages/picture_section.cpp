@@ -11,6 +11,9 @@ namespace {
 // Pictures beyond this are left to the files in figures/, so that the page opens on a phone.
 constexpr std::size_t kPictureBudget_bytes = 6'500'000;
 
+// A strip of so many pictures leaves room to show each as large as it is.
+constexpr std::size_t kFewPictures = 4;
+
 std::string ColorBar(const std::string& label, Color (*color_of)(double),
                      const std::vector<std::string>& ticks) {
   constexpr int kStops = 12;
@@ -56,9 +59,9 @@ std::string StripHtml(const RunPictures& run, const PictureStrip& strip) {
   const std::string sublabel = strip.sublabel.empty() ? "" : strip.sublabel + " · ";
   return fmt::format(
       "<div class=\"strip\"><h4>{} <span class=\"soft\">{}{}{}</span></h4><div "
-      "class=\"cells\">\n{}</div></div>\n",
+      "class=\"cells{}\">\n{}</div></div>\n",
       Escaped(strip.label), sublabel.empty() && strip.note.empty() ? "" : "· ", Escaped(sublabel),
-      Escaped(strip.note), cells);
+      Escaped(strip.note), strip.pictures.size() <= kFewPictures ? " few" : "", cells);
 }
 
 }  // namespace

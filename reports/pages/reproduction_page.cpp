@@ -234,8 +234,7 @@ std::string Origins(const ReproductionList& list, const FigureRecords& records) 
   for (const ReportedExperiment& experiment : records.experiments) {
     for (const ReportedRun& run : experiment.runs) {
       runs += fmt::format("<br>{}/{}", Escaped(experiment.record.name), Escaped(run.run_id));
-      if (run.record && run.record->provenance.contains("commit"))
-        builds.insert(run.record->provenance.at("commit").dump());
+      if (run.record) builds.insert(run.record->provenance.value("commit", ""));
     }
   }
   if (runs.empty()) return html;
