@@ -8,6 +8,7 @@
 #include "analysis/reproduction_list.h"
 #include "config/json_settings.h"
 #include "core/error.h"
+#include "experiments/cli/run_command.h"
 #include "experiments/plan/experiment_config.h"
 #include "experiments/studies/reproduction.h"
 #include "reports/pages/reproduction_page.h"
@@ -16,7 +17,6 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kMostJobs = 1024;
 constexpr const char* kFooter =
     "Figures of Stanford EVAL are made from the synthetic set in its spirit, or from your own\n"
     "recordings where VITRUVIA_EVAL names the folder that holds the sequences S0 … S7\n"
@@ -24,7 +24,7 @@ constexpr const char* kFooter =
     "Can be interrupted; the next call goes on. docs/reproduction.md explains the list file.\n"
     "Exit codes: 0 page written; 4 page written, but some run failed.";
 
-struct Arguments {
+struct ReproduceArguments {
   fs::path list = "configs/reproduction.json", output = "out/reproduction";
   std::vector<std::string> only;
   int jobs = 1;
@@ -64,7 +64,7 @@ void PrintVerdicts(const std::vector<FigureRecords>& figures) {
   }
 }
 
-void Reproduce(const Arguments& a) {
+void Reproduce(const ReproduceArguments& a) {
   const auto list = ReadSettingsFile<ReproductionList>(a.list);
   const std::vector<ReproducedFigure> figures = WithOwnEval(ChosenFigures(list, a.only));
   if (a.lists) return PrintList(figures);
@@ -82,7 +82,7 @@ void Reproduce(const Arguments& a) {
 }  // namespace
 
 void AddReproduceCommand(CLI::App& app) {
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<ReproduceArguments>();
   CLI::App* reproduce = app.add_subcommand(
       "reproduce",
       "Make the papers' figures and tables anew, on one page with each claim's verdict");

@@ -6,7 +6,7 @@
 namespace vitruvia {
 namespace {
 
-constexpr double kColumnWidth = 138.0, kRowHeight = 38.0, kMargin = 16.0;
+constexpr double kColumnWidth = 138.0, kRowHeight = 38.0, kTreeMargin = 16.0;
 constexpr double kNameSize = 12.0, kDetailSize = 10.0, kDotRadius = 4.0, kTextGap = 8.0;
 constexpr double kNameRise = 8.0, kDetailFall = 9.0;  // of the text beside a node
 constexpr Color kInk{0x22, 0x22, 0x22}, kSoftInk{0x5a, 0x63, 0x6b}, kLineInk{0xBB, 0xBB, 0xBB};
@@ -45,16 +45,16 @@ TreeLayout LayOut(const BoneTree& tree) {
 }
 
 Point PlaceOf(const TreeLayout& layout, std::size_t node) {
-  return {kMargin + kColumnWidth * layout.column[node],
-          kMargin + kRowHeight * (layout.row[node] + 0.5)};
+  return {kTreeMargin + kColumnWidth * layout.column[node],
+          kTreeMargin + kRowHeight * (layout.row[node] + 0.5)};
 }
 
 }  // namespace
 
 TreeSize SizeOf(const BoneTree& tree) {
   const TreeLayout layout = LayOut(tree);
-  return {static_cast<int>(std::lround(2 * kMargin + kColumnWidth * layout.columns)),
-          static_cast<int>(std::lround(2 * kMargin + kRowHeight * layout.rows))};
+  return {static_cast<int>(std::lround(2 * kTreeMargin + kColumnWidth * layout.columns)),
+          static_cast<int>(std::lround(2 * kTreeMargin + kRowHeight * layout.rows))};
 }
 
 void DrawTree(Canvas& canvas, const BoneTree& tree) {

@@ -21,11 +21,11 @@ bool IsAboutScene(const ClaimTest& test, const RunRecord& run) {
          });
 }
 
-using Runs = std::vector<const RunRecord*>;
+using RunList = std::vector<const RunRecord*>;
 
-Runs RunsOf(const std::string& contender, const ClaimTest& test,
-            const ReportedExperiment& experiment) {
-  Runs runs = experiment.finished();
+RunList RunsOf(const std::string& contender, const ClaimTest& test,
+               const ReportedExperiment& experiment) {
+  RunList runs = experiment.finished();
   std::erase_if(runs, [&](const RunRecord* run) {
     return !MatchesPattern(contender, run->method + "/" + run->variant) ||
            !IsAboutScene(test, *run);
@@ -39,13 +39,13 @@ bool AreOfOneSequence(const RunRecord& a, const RunRecord& b) {
 
 // Of several partners the one of the same method, or else of the same variant; null if there is
 // none or if it is not clear which.
-const RunRecord* PartnerOf(const RunRecord& run, const Runs& candidates) {
-  Runs partners;
+const RunRecord* PartnerOf(const RunRecord& run, const RunList& candidates) {
+  RunList partners;
   for (const RunRecord* candidate : candidates) {
     if (AreOfOneSequence(run, *candidate)) partners.push_back(candidate);
   }
   for (std::string RunRecord::*const key : {&RunRecord::method, &RunRecord::variant}) {
-    Runs same;
+    RunList same;
     for (const RunRecord* partner : partners) {
       if (partner->*key == run.*key) same.push_back(partner);
     }
@@ -62,7 +62,7 @@ PairedValues PairsOf(const ClaimTest& test, const Metric& metric,
                      const std::vector<ReportedExperiment>& experiments) {
   PairedValues values;
   for (const ReportedExperiment& experiment : experiments) {
-    const Runs candidates = RunsOf(test.against, test, experiment);
+    const RunList candidates = RunsOf(test.against, test, experiment);
     for (const RunRecord* run : RunsOf(test.of, test, experiment)) {
       const RunRecord* partner = PartnerOf(*run, candidates);
       if (partner == nullptr) continue;
