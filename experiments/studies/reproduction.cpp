@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <optional>
 
 #include "core/error.h"
 #include "core/message.h"
@@ -52,26 +53,35 @@ ReportedExperiment Chosen(ReportedExperiment experiment, const std::vector<Plann
   return experiment;
 }
 
+Experiment Plan(const fs::path& file, const ExperimentReduction* reduction,
+                const WorkFolders& work) {
+  return ChangesSettings(reduction) ? PlanReduced(file, *reduction, work)
+                                    : PlanAnyExperiment(file, work);
+}
+
+void CarryOut(const Experiment& experiment, const ExperimentReduction* reduction,
+              const fs::path& file, const fs::path& folder, int jobs, MadeExperiment& made) {
+  RequireOwnFolder(folder, file);
+  const RunSelection selection{reduction == nullptr ? "" : reduction->only, ""};
+  const std::vector<PlannedRun> runs = SelectedRuns(experiment.runs, selection);
+  WritePlan(experiment, file, folder);
+  made.done = CarryOutRuns(runs, jobs, folder).done;
+  WriteSummary(folder);
+  made.records = Chosen(ReadExperiment(folder), runs);
+}
+
 MadeExperiment Make(const fs::path& file, const ExperimentReduction* reduction,
                     const fs::path& root, int jobs) {
   const Stopwatch watch;
-  const fs::path folder = root / ConfigName(file);
-  const WorkFolders work{root / "sequences", root / "learned"};
   MadeExperiment made;
+  std::optional<Experiment> experiment;
   try {
-    const Experiment experiment = ChangesSettings(reduction) ? PlanReduced(file, *reduction, work)
-                                                             : PlanAnyExperiment(file, work);
-    RequireOwnFolder(folder, file);
-    const RunSelection selection{reduction == nullptr ? "" : reduction->only, ""};
-    const std::vector<PlannedRun> runs = SelectedRuns(experiment.runs, selection);
-    WritePlan(experiment, file, folder);
-    made.done = CarryOutRuns(runs, jobs, folder).done;
-    WriteSummary(folder);
-    made.records = Chosen(ReadExperiment(folder), runs);
-  } catch (const ConfigError& error) {
+    experiment = Plan(file, reduction, {root / "sequences", root / "learned"});
+  } catch (const Error& error) {
     made.problem = error.what();
-    PrintMessage("{}: {}\n", file.string(), error.what());
+    PrintMessage("{}\n", error.what());
   }
+  if (experiment) CarryOut(*experiment, reduction, file, root / ConfigName(file), jobs, made);
   made.seconds = watch.ElapsedMs() / kMsPerSecond;
   return made;
 }
