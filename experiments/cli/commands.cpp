@@ -26,6 +26,7 @@
 #include "experiments/cli/learn_shape_command.h"
 #include "experiments/cli/problems.h"
 #include "experiments/cli/regress_command.h"
+#include "experiments/cli/reproduce_command.h"
 #include "experiments/cli/rescore_command.h"
 #include "experiments/cli/rig_command.h"
 #include "experiments/cli/run_command.h"
@@ -119,6 +120,7 @@ void AddCommands(CLI::App& app, Arguments& a) {
   AddStatusCommand(app);
   AddSubmitCommand(app);
   AddSufficientCommand(app);
+  AddReproduceCommand(app);
   AddRescoreCommand(app);
   AddExportCommand(app);
   AddImportCommand(app);
@@ -162,7 +164,8 @@ int RunCommandLine(int argc, const char* const* argv) {
     if (app.get_subcommands().empty()) {
       throw ConfigError(
           "expected a command: list, synth, import, verify, learn, scan, fit, rig, subject, track, "
-          "run, status, submit, rescore, export, report, index, compare, sufficient, regress, "
+          "run, status, submit, rescore, export, report, index, compare, sufficient, reproduce, "
+          "regress, "
           "schema or explain (--help)");
     }
     if (std::fflush(stdout) != 0) FailToWrite("standard output", errno);

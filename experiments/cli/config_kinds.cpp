@@ -1,11 +1,13 @@
 #include "experiments/cli/config_kinds.h"
 
 #include "analysis/gate_reports.h"
+#include "analysis/reproduction_list.h"
 #include "config/did_you_mean.h"
 #include "config/stored_data.h"
 #include "core/error.h"
 #include "experiments/cli/regress_config.h"
 #include "experiments/plan/run_plan.h"
+#include "experiments/studies/model_study.h"
 #include "experiments/studies/shape_study.h"
 #include "experiments/studies/weight_study.h"
 #include "importers/depth_import.h"
@@ -40,6 +42,10 @@ const std::vector<ConfigKind>& ConfigKinds() {
          VisitDefaults<ShapeStudySettings>, nullptr},
         {"skinning_weights", "an experiment of that kind: weights used on other people",
          VisitDefaults<WeightStudySettings>, nullptr},
+        {"model_drawing", "an experiment of that kind: drawings of a tracker's model",
+         VisitDefaults<ModelStudySettings>, nullptr},
+        {"reproduction", "the list of the papers' figures that `vitruvia reproduce` makes",
+         VisitDefaults<ReproductionList>, nullptr},
         {"regression", "what the regression gate measures", VisitDefaults<RegressSettings>,
          nullptr},
         {"scene", "a body, its motion and a camera", VisitDefaults<SceneSettings>, nullptr},

@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "core/error.h"
-#include "experiments/plan/run_selection.h"
+#include "core/pattern.h"
 #include "records/run_record.h"
 #include "reports/export/mesh_export.h"
 

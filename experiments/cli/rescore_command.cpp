@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "core/message.h"
-#include "experiments/plan/run_selection.h"
+#include "core/pattern.h"
 #include "experiments/run/experiment_files.h"
 #include "experiments/run/run_state.h"
 #include "scoring/rescore.h"

@@ -23,7 +23,6 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kMostJobs = 1024;
 constexpr std::size_t kNarrowestColumn = 10;  // characters
 
 constexpr const char* kRunFooter =

@@ -7,6 +7,9 @@ class App;
 
 namespace vitruvia {
 
+// Runs at a time that can be asked for.
+inline constexpr int kMostJobs = 1024;
+
 void AddRunCommand(CLI::App& app);
 
 }  // namespace vitruvia

@@ -97,6 +97,12 @@ void ExperimentSettings::Describe(Fields& f) {
                   "results are equal",
        .min = 1,
        .max = 1000});
+  f.Integer("most_frames", most_frames,
+            {.meaning = "number of frames of each scene at most, for a quick look; 0 is as many as "
+                        "the scene says",
+             .unit = "frames",
+             .min = 0,
+             .max = 1e6});
   f.Flag("timed", timed,
          {.meaning = "true: the experiment measures times, so its runs are carried out one by one "
                      "while no other run goes on on the machine; false: runs may go in parallel "

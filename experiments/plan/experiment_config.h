@@ -56,6 +56,7 @@ struct ExperimentSettings {
   SweepSettings sweep;
   std::vector<int> seeds{1};
   int repeats = 1;
+  int most_frames = 0;  // of each scene; 0: as the scene says
   bool timed = false;
   double failed_frames_limit = kFailedFramesLimit;
   std::vector<ExpectationSettings> expectations;

@@ -28,10 +28,12 @@ std::vector<Recording> RecordingsOf(const ExperimentSettings& settings) {
   return recordings;
 }
 
-void TakeScene(const fs::path& scene_file, const VariantSettings& variant, RunPlan& run) {
+void TakeScene(const fs::path& scene_file, const VariantSettings& variant, int most_frames,
+               RunPlan& run) {
   run.scene = scene_file.stem().string();
   run.scene_settings = ReadScene(scene_file, variant.scene);
   run.scene_settings.seed = run.seed;
+  if (most_frames > 0) run.scene_settings.frames = std::min(run.scene_settings.frames, most_frames);
   run.frames = run.scene_settings.frames;
   run.resolved["scene"] = WriteSettings(run.scene_settings);
 }
@@ -68,20 +70,20 @@ void TakeSubject(const fs::path& subject, RunPlan& run) {
 }
 
 RunPlan PlanRun(const Recording& recording, const fs::path& method_file,
-                const VariantSettings& variant, int seed, const ScoreSettings& score) {
+                const VariantSettings& variant, int seed, const ExperimentSettings& experiment) {
   RunPlan run;
-  run.score = score;
+  run.score = experiment.score;
   run.variant = variant.name;
   run.method_name = method_file.stem().string();
   run.seed = seed;
   run.method =
       ReadMethodConfig(Merged(ReadJsonFile(method_file), variant.method), {method_file, ""});
   run.resolved = {{"method", {{"method", run.method.method}, {"settings", run.method.settings}}},
-                  {"score", WriteSettings(score)}};
+                  {"score", WriteSettings(experiment.score)}};
   if (recording.is_stored) {
     TakeSequence(recording.path, variant, run);
   } else {
-    TakeScene(recording.path, variant, run);
+    TakeScene(recording.path, variant, experiment.most_frames, run);
   }
   if (!variant.subject.empty()) TakeSubject(variant.subject, run);
   run.faults = variant.faults;
@@ -122,7 +124,7 @@ void AddRuns(const Recording& recording, const fs::path& method, const VariantSe
   const std::size_t seeds = recording.is_stored ? 1 : settings.seeds.size();
   try {
     for (const int seed : std::span(settings.seeds).first(seeds)) {
-      RunPlan run = PlanRun(recording, method, variant, seed, settings.score);
+      RunPlan run = PlanRun(recording, method, variant, seed, settings);
       for (int repeat = 1; repeat <= settings.repeats; ++repeat) {
         if (settings.repeats > 1) run.repeat = repeat;
         NameRun(run);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fnmatch.h>
 
 #include "core/error.h"
+#include "core/pattern.h"
 
 namespace vitruvia {
 namespace {
@@ -47,10 +47,6 @@ std::vector<PlannedRun> Matching(const std::vector<PlannedRun>& runs, const std:
 }
 
 }  // namespace
-
-bool MatchesPattern(const std::string& pattern, const std::string& text) {
-  return fnmatch(pattern.c_str(), text.c_str(), 0) == 0;
-}
 
 std::vector<PlannedRun> SelectedRuns(const std::vector<PlannedRun>& runs,
                                      const RunSelection& selection) {

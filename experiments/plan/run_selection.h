@@ -18,7 +18,4 @@ struct RunSelection {
 std::vector<PlannedRun> SelectedRuns(const std::vector<PlannedRun>& runs,
                                      const RunSelection& selection);
 
-// Whether the pattern matches the text, as in a shell.
-bool MatchesPattern(const std::string& pattern, const std::string& text);
-
 }  // namespace vitruvia

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "experiments/plan/run_plan.h"
 #include "experiments/run/tracking_run.h"
+#include "experiments/studies/model_study.h"
 #include "experiments/studies/shape_study.h"
 #include "experiments/studies/weight_study.h"
 
@@ -24,7 +25,8 @@ struct Kind {
 const std::vector<Kind>& Kinds() {
   static const std::vector<Kind> kinds = {{kTrackingKind, PlanTracking, CarryOutTracking},
                                           {kShapeKind, PlanShapeStudy, CarryOutShapeRun},
-                                          {kWeightKind, PlanWeightStudy, CarryOutWeightRun}};
+                                          {kWeightKind, PlanWeightStudy, CarryOutWeightRun},
+                                          {kModelKind, PlanModelStudy, CarryOutModelRun}};
   return kinds;
 }
 

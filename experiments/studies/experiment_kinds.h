@@ -7,8 +7,9 @@
 
 namespace vitruvia {
 
-// "tracking" (the default; experiment_config.h), "intrinsic_shape" (shape_study.h) or
-// "skinning_weights" (weight_study.h). Throws ConfigError before anything has run.
+// "tracking" (the default; experiment_config.h), "intrinsic_shape" (shape_study.h),
+// "skinning_weights" (weight_study.h) or "model_drawing" (model_study.h). Throws ConfigError before
+// anything has run.
 Experiment PlanAnyExperiment(const std::filesystem::path& experiment_file, const WorkFolders& work);
 
 // Carries out a run of an experiment of any kind, in the run's own process (run_process.h).

@@ -11,6 +11,9 @@ namespace {
 // Pictures beyond this are left to the files in figures/, so that the page opens on a phone.
 constexpr std::size_t kPictureBudget_bytes = 6'500'000;
 
+// A strip of so many pictures leaves room to show each as large as it is.
+constexpr std::size_t kFewPictures = 4;
+
 std::string ColorBar(const std::string& label, Color (*color_of)(double),
                      const std::vector<std::string>& ticks) {
   constexpr int kStops = 12;
@@ -56,24 +59,26 @@ std::string StripHtml(const RunPictures& run, const PictureStrip& strip) {
   const std::string sublabel = strip.sublabel.empty() ? "" : strip.sublabel + " · ";
   return fmt::format(
       "<div class=\"strip\"><h4>{} <span class=\"soft\">{}{}{}</span></h4><div "
-      "class=\"cells\">\n{}</div></div>\n",
+      "class=\"cells{}\">\n{}</div></div>\n",
       Escaped(strip.label), sublabel.empty() && strip.note.empty() ? "" : "· ", Escaped(sublabel),
-      Escaped(strip.note), cells);
+      Escaped(strip.note), strip.pictures.size() <= kFewPictures ? " few" : "", cells);
 }
 
 }  // namespace
+
+std::string RunPicturesHtml(const RunPictures& run) {
+  if (!run.problem.empty()) return fmt::format("<p>No pictures: {}</p>\n", Escaped(run.problem));
+  std::string html = PictureLegend(run);
+  for (const PictureStrip& strip : run.strips) html += StripHtml(run, strip);
+  return html;
+}
 
 std::string PictureSection(const std::vector<RunPictures>& runs) {
   std::string html = "<section id=\"pictures\"><h2>Pictures</h2>\n";
   std::size_t used_bytes = 0;
   for (const RunPictures& run : runs) {
     html += fmt::format("<h3 class=\"run\">{}</h3>\n", Escaped(run.run_id));
-    if (!run.problem.empty()) {
-      html += fmt::format("<p>No pictures: {}</p>\n", Escaped(run.problem));
-      continue;
-    }
-    std::string strips = PictureLegend(run);
-    for (const PictureStrip& strip : run.strips) strips += StripHtml(run, strip);
+    const std::string strips = RunPicturesHtml(run);
     if (used_bytes + strips.size() > kPictureBudget_bytes) {
       html += fmt::format(
           "<p>This run’s pictures are in <code>figures/pictures-{}.png</code>; they would make the "

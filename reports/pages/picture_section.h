@@ -1,4 +1,4 @@
-// The pictures of all runs, for the report's page.
+// Pictures of runs, as HTML.
 #pragma once
 
 #include <string>
@@ -8,6 +8,10 @@
 
 namespace vitruvia {
 
+// One run's legend and strips, or why there are none.
+std::string RunPicturesHtml(const RunPictures& run);
+
+// The report's section with the pictures of all runs.
 std::string PictureSection(const std::vector<RunPictures>& runs);
 
 }  // namespace vitruvia

@@ -11,6 +11,7 @@
 #include "core/progress.h"
 #include "math/rigid.h"
 #include "math/rotation.h"
+#include "records/bone_tree.h"
 #include "records/surface_strips.h"
 #include "reports/drawing/color_maps.h"
 #include "reports/drawing/mesh_view.h"
@@ -213,6 +214,8 @@ std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment) {
     pictures.run_id = run->run_id;
     pictures.keys = {{kEstimateColor, "reconstruction"},
                      {kTruthColor, "truth; where both are drawn, the nearer shows"}};
+    // Drawings of a model have neither reconstruction nor truth.
+    if (HasBoneTree(experiment.folder / run->run_id)) pictures.keys.clear();
     if (HasSurfaceStrips(experiment.folder / run->run_id)) {
       sources.push_back(nullptr);
     } else {

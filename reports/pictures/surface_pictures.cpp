@@ -48,6 +48,7 @@ Eigen::AlignedBox3f BoxAround(const std::vector<SurfaceStrip>& strips) {
   return box;
 }
 
+// 0 where no panel shows errors.
 double ErrorScale(const std::vector<SurfaceStrip>& strips) {
   std::vector<double> errors;
   for (const SurfaceStrip& strip : strips) {
@@ -58,7 +59,7 @@ double ErrorScale(const std::vector<SurfaceStrip>& strips) {
       }
     }
   }
-  return ErrorScaleEnd(std::move(errors), kSmallestSurfaceScale_m);
+  return errors.empty() ? 0.0 : ErrorScaleEnd(std::move(errors), kSmallestSurfaceScale_m);
 }
 
 // Neighbouring bones have different hues: the golden angle round the circle of colours.

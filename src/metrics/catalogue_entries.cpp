@@ -295,6 +295,31 @@ std::vector<Metric> JointErrorMetrics() {
        .shown_in = {kGate},
        .definition = "Maximum distance between an estimated and a true joint. In a series per "
                      "frame it is the maximum over the joints of that frame."},
+      {.key = "joint_error_mean_less_offset_m",
+       .label = "mean joint error, less each joint's mean offset",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .definition = "joint_error_mean_m after the mean offset of each joint over the frames is "
+                     "subtracted, for methods and recordings that define their joints "
+                     "differently."},
+      {.key = "joints_within_2cm",
+       .label = "joints within 2 cm",
+       .unit = "%",
+       .scale = 1e2,
+       .decimals = 2,
+       .better = Better::kHigher,
+       .definition = "Share of the joints, over all frames, whose estimate lies within 2 cm of the "
+                     "truth."},
+      {.key = "joints_within_5cm",
+       .label = "joints within 5 cm",
+       .unit = "%",
+       .scale = 1e2,
+       .decimals = 2,
+       .better = Better::kHigher,
+       .definition = "Share of the joints, over all frames, whose estimate lies within 5 cm of the "
+                     "truth."},
       {.key = "joints_within_10cm",
        .label = "joints within 10 cm",
        .unit = "%",

@@ -93,8 +93,9 @@ void RunRecord::Describe(Fields& f) {
                 .unit = "m",
                 .optional = true});
   f.Map("joint_accuracy", joint_accuracy,
-        {.meaning = "class of joints (all, visible, hidden) → share of joints with an error of at "
-                    "most each threshold; absent where no joints were scored",
+        {.meaning = "class of joints (all, visible, hidden; less_offset: all, after the mean "
+                    "offset of each joint is taken off) → share of joints with an error of at most "
+                    "each threshold; absent where no joints were scored",
          .optional = true});
   f.Map("joint_error_mean_m", joint_error_mean_m,
         {.meaning = "joint → mean error; absent where no joints were scored",

@@ -49,7 +49,8 @@ struct RunRecord {
   // has a true surface l2_mean_m, l2_max_m, l2_mean_visible_m, l2_mean_hidden_m.
   std::map<std::string, std::vector<double>> frames;
   // Share of (frame, joint) pairs with an error of at most threshold_m[i], per class all / visible
-  // / hidden; without classes that have no pair.
+  // / hidden, and less_offset: all, each joint's mean offset taken off; without classes that have
+  // no pair.
   std::vector<double> threshold_m;
   std::map<std::string, std::vector<double>> joint_accuracy;
   std::map<std::string, double> joint_error_mean_m;  // per joint name

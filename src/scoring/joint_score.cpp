@@ -12,6 +12,9 @@
 namespace vitruvia {
 namespace {
 
+// Beside the papers' kJointThreshold_m, for differences that it does not show.
+constexpr double kTightThreshold_m = 0.02, kMiddleThreshold_m = 0.05;
+
 // A joint that both sides have.
 struct SharedJoint {
   std::string name;
@@ -96,6 +99,7 @@ void RecordCurves(const JointErrorsByClass& errors, RunRecord& record) {
   curve("all", errors.all);
   curve("visible", errors.visible);
   curve("hidden", errors.hidden);
+  curve("less_offset", errors.less_offset);
   for (const auto& [joint, of_joint] : errors.per_joint)
     record.joint_error_mean_m[joint] = Mean(of_joint);
 }
@@ -106,7 +110,10 @@ void SummarizeJointErrors(const JointErrorsByClass& errors, RunRecord& record) {
   if (!errors.visible.empty()) row["joint_error_mean_visible_m"] = Mean(errors.visible);
   if (!errors.hidden.empty()) row["joint_error_mean_hidden_m"] = Mean(errors.hidden);
   row["joint_error_max_m"] = Maximum(errors.all);
+  row["joints_within_2cm"] = ShareWithin(errors.all, kTightThreshold_m);
+  row["joints_within_5cm"] = ShareWithin(errors.all, kMiddleThreshold_m);
   row["joints_within_10cm"] = ShareWithin(errors.all, kJointThreshold_m);
+  row["joint_error_mean_less_offset_m"] = Mean(errors.less_offset);
   row["joints_within_10cm_less_offset"] = ShareWithin(errors.less_offset, kJointThreshold_m);
   row["joint_auc_30cm"] = Mean(record.joint_accuracy.at("all"));
 }

@@ -1,0 +1,81 @@
+// The list of the papers' figures and tables that are made anew: what each shows, which experiments
+// it is made from, and what decides on the claim that it supports.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "analysis/claims.h"
+#include "config/settings.h"
+
+namespace vitruvia {
+
+// A part of an experiment that is enough for its figures.
+struct ExperimentReduction {
+  std::filesystem::path experiment;
+  std::string only;        // pattern of run ids, variants or scenes; "": all runs
+  int most_frames = 0;     // of each scene; 0: all
+  std::vector<int> seeds;  // in place of the experiment's; empty: as it says
+  std::string why;
+
+  void Describe(Fields& fields);
+};
+
+// Pictures of some runs.
+struct ShownPictures {
+  std::string of = "*";             // pattern of "method/variant"
+  std::vector<std::string> scenes;  // patterns; empty: all
+  std::vector<int> frames;          // empty: those of the experiment
+  std::vector<std::string> panels;  // patterns of the pictures' titles; empty: all
+  bool side_by_side = false;        // runs of a sequence below each other
+
+  void Describe(Fields& fields);
+};
+
+// Means over runs, a row for each contender.
+struct ShownTable {
+  std::string title;
+  std::vector<std::string> scenes;  // patterns; empty: all
+  std::vector<std::string> metrics;
+
+  void Describe(Fields& fields);
+  std::string Problem() const;
+};
+
+struct ReproducedFigure {
+  std::string id;     // "A11": how a command names it
+  std::string place;  // "Paper A, figure 11"
+  std::string title, caption;
+  std::string published, claim;  // "": beside no claim of a paper
+  std::vector<std::filesystem::path> experiments;
+  // That take the place of `experiments` where the user has Stanford EVAL; empty: the same ones.
+  std::vector<std::filesystem::path> eval_experiments;
+  std::vector<ClaimTest> tests;
+  std::string cannot_be_tested;  // why no test decides
+  std::vector<ShownPictures> pictures;
+  std::vector<std::string> plots;  // names of plots (reports/figures), the beginning is enough
+  std::vector<ShownTable> tables;
+
+  void Describe(Fields& fields);
+  std::string Problem() const;
+};
+
+struct ReproductionList {
+  std::string title, description;
+  std::vector<ExperimentReduction> reductions;
+  std::vector<ReproducedFigure> figures;  // in the order of the page
+
+  void Describe(Fields& fields);
+  std::string Problem() const;
+
+  // The experiment's reduction; nullptr if all of it is carried out.
+  const ExperimentReduction* ReductionOf(const std::filesystem::path& experiment) const;
+};
+
+// The figures of those ids, in the list's order; all if there are no ids. ConfigError naming the
+// nearest id where there is none of a name.
+std::vector<ReproducedFigure> ChosenFigures(const ReproductionList& list,
+                                            const std::vector<std::string>& ids);
+
+}  // namespace vitruvia
