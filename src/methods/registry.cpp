@@ -11,8 +11,8 @@
 #include "methods/external/external.h"
 #include "methods/gmm_articulated/gmm_articulated.h"
 #include "methods/realtime_scape/realtime_scape.h"
-#include "methods/sdf_parts/sdf_parts.h"
 #include "methods/scape_regression/scape_regression.h"
+#include "methods/sdf_parts/sdf_parts.h"
 #include "methods/skeleton_driven/skeleton_driven.h"
 
 namespace vitruvia {
