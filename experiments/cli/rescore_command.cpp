@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/message.h"
+#include "experiments/cli/experiment_folder.h"
 #include "experiments/plan/run_selection.h"
 #include "experiments/run/experiment_files.h"
 #include "experiments/run/run_state.h"
@@ -76,15 +77,15 @@ void Rescore(const fs::path& folder, const std::string& only) {
 
 void AddRescoreCommand(CLI::App& app) {
   struct RescoreArguments {
-    fs::path folder;
+    fs::path experiment, output;
     std::string only;
   };
   auto a = std::make_shared<RescoreArguments>();
   CLI::App* rescore = app.add_subcommand(
       "rescore", "Compute all metrics again from stored estimates, without tracking");
-  rescore->add_option("DIR", a->folder, "the experiment's folder")->required();
+  AddExperimentArgument(*rescore, a->experiment, a->output);
   rescore->add_option("--only", a->only, "only runs whose id matches this pattern (* ? [abc])");
-  rescore->callback([a] { Rescore(a->folder, a->only); });
+  rescore->callback([a] { Rescore(ExperimentFolder(a->experiment, a->output), a->only); });
 }
 
 }  // namespace vitruvia

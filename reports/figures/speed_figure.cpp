@@ -11,13 +11,10 @@
 #include "math/statistics.h"
 #include "records/metric_value.h"
 #include "reports/drawing/color_maps.h"
+#include "reports/figures/figure_parts.h"
 #include "reports/figures/run_plots.h"
 
 namespace vitruvia {
-namespace {
-
-// What stands for a variant's error: the first of Place::kSpeedPlot that some run has; the first of
-// all if no run has any.
 Metric ErrorMetricOf(const ReportedExperiment& experiment) {
   const std::vector<const RunRecord*> runs = experiment.finished();
   const std::vector<Metric> metrics = MetricsShownIn(Place::kSpeedPlot);
@@ -29,6 +26,8 @@ Metric ErrorMetricOf(const ReportedExperiment& experiment) {
   }
   return metrics.front();
 }
+
+namespace {
 
 // An axis whose values differ by more than this factor is logarithmic.
 constexpr double kWideRange = 20.0;
@@ -94,7 +93,7 @@ Series FrontLine(std::vector<SpeedPoint> points) {
 Series Drawn(const SpeedPoint& point, std::size_t index, bool numbered) {
   Series series;
   series.name = numbered ? fmt::format("{} {}", index + 1, point.name) : point.name;
-  series.color = kRunColors[index % kRunColors.size()];
+  series.color = VariantColor(index);
   series.mark = point.on_front ? Mark::kPoints : Mark::kRings;
   series.x = {point.median_ms};
   series.x_reach = {point.p95_ms};
@@ -168,7 +167,7 @@ std::vector<Reference> PublishedReferences(const ExperimentRecord& experiment,
     references.push_back(
         {fmt::format("{}: {:g}{}{}{}", e.source, published, metric.unit.empty() ? "" : " ",
                      metric.unit, e.not_comparable.empty() ? "" : ", not comparable"),
-         published});
+         published, e.not_comparable.empty()});
   }
   return references;
 }
@@ -190,6 +189,9 @@ Figure MakeSpeedFigure(const ReportedExperiment& experiment) {
   for (const std::string& scene : scenes) {
     figure.panels.push_back(SpeedPanel(experiment, scene, error_metric));
   }
+  figure.columns = 2;
+  for (const Contender& contender : ContendersOf(experiment))
+    AddRuns(contender.name, contender.runs, figure);
   return figure;
 }
 
