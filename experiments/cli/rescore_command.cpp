@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/message.h"
 #include "experiments/cli/experiment_folder.h"
+#include "experiments/plan/experiment_config.h"
 #include "experiments/plan/run_selection.h"
 #include "experiments/run/experiment_files.h"
 #include "experiments/run/run_state.h"
@@ -28,19 +29,21 @@ nlohmann::json ResultsOf(const RunRecord& record) {
 }
 
 // Returns whether any number changed.
-bool RescoreRun(const fs::path& folder, const std::string& run_id) {
+bool RescoreRun(const fs::path& folder, const std::string& run_id,
+                const std::vector<FrameSummary>& summaries) {
   const std::optional<FileLock> claim = ClaimRun(folder / run_id);
   if (!claim) throw RunError(fmt::format("{}: another process carries it out", run_id));
   const RunRecord before = ReadRunRecord(folder, run_id);
-  const RunRecord after = Rescored(folder, before);
+  const RunRecord after = Rescored(folder, before, summaries);
   WriteRunRecord(folder, after);
   return ResultsOf(before) != ResultsOf(after);
 }
 
 // A run whose record or estimate cannot be read is named and left as it is.
-void RescoreIfReadable(const fs::path& folder, const std::string& run_id, Counts& counts) {
+void RescoreIfReadable(const fs::path& folder, const std::string& run_id,
+                       const std::vector<FrameSummary>& summaries, Counts& counts) {
   try {
-    const bool differs = RescoreRun(folder, run_id);
+    const bool differs = RescoreRun(folder, run_id, summaries);
     fmt::print("{}: {}\n", run_id, differs ? "changed" : "the same");
     ++counts.rescored;
     counts.changed += differs ? 1 : 0;
@@ -52,14 +55,15 @@ void RescoreIfReadable(const fs::path& folder, const std::string& run_id, Counts
 
 void Rescore(const fs::path& folder, const std::string& only) {
   Counts counts;
-  for (const std::string& run_id : ReadExperimentRecord(folder).run_ids) {
+  const ExperimentRecord experiment = ReadExperimentRecord(folder);
+  for (const std::string& run_id : experiment.run_ids) {
     if (!only.empty() && !MatchesPattern(only, run_id)) continue;
     if (!fs::exists(folder / run_id / "record.json")) continue;
     if (!fs::is_directory(folder / run_id / "estimate")) {
       fmt::print("{}: has no estimate, its record stays as it is\n", run_id);
       continue;
     }
-    RescoreIfReadable(folder, run_id, counts);
+    RescoreIfReadable(folder, run_id, experiment.summaries, counts);
   }
   if (counts.rescored + counts.damaged == 0)
     throw DataError(fmt::format("{}: holds no run to score again", folder.string()));
@@ -71,6 +75,21 @@ void Rescore(const fs::path& folder, const std::string& only) {
         fmt::format("{}: {} runs could not be read and were skipped; vitruvia run "
                     "carries out those with a damaged record again",
                     folder.string(), counts.damaged));
+}
+
+// What the experiment file says now of how runs are summarised and shown goes into the folder.
+void TakeOverPresentation(const fs::path& experiment_file, const fs::path& folder) {
+  const auto settings = ReadSettingsFile<ExperimentSettings>(experiment_file);
+  const FileLock lock = LockExperiment(folder);
+  ExperimentRecord record = ReadExperimentRecord(folder);
+  record.summaries = settings.summaries;
+  record.table_columns = settings.table_columns;
+  WriteExperimentRecord(folder, record);
+}
+
+bool IsTrackingExperiment(const fs::path& file) {
+  return fs::is_regular_file(file) &&
+         ReadJsonFile(file).value("kind", std::string(kTrackingKind)) == kTrackingKind;
 }
 
 }  // namespace
@@ -85,7 +104,13 @@ void AddRescoreCommand(CLI::App& app) {
       "rescore", "Compute all metrics again from stored estimates, without tracking");
   AddExperimentArgument(*rescore, a->experiment, a->output);
   rescore->add_option("--only", a->only, "only runs whose id matches this pattern (* ? [abc])");
-  rescore->callback([a] { Rescore(ExperimentFolder(a->experiment, a->output), a->only); });
+  rescore->footer(
+      "Given the experiment file, its summaries and table_columns replace those of the folder.");
+  rescore->callback([a] {
+    const fs::path folder = ExperimentFolder(a->experiment, a->output);
+    if (IsTrackingExperiment(a->experiment)) TakeOverPresentation(a->experiment, folder);
+    Rescore(folder, a->only);
+  });
 }
 
 }  // namespace vitruvia

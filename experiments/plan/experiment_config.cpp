@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "experiments/plan/overrides.h"
 #include "metrics/catalogue.h"
+#include "scoring/summaries.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -125,6 +126,9 @@ void ExperimentSettings::Describe(Fields& f) {
               "each other, the body's front and back in two colours, so that jitter and twisted "
               "limbs can be seen"});
   f.Section("score", score, {.meaning = "metrics that are measured in addition to the usual ones"});
+  f.List("summaries", summaries,
+         {.meaning = "summaries over the frames of a run; vitruvia rescore FILE computes them of "
+                     "runs that were carried out without"});
 }
 
 std::string ExperimentSettings::Problem() const {
@@ -132,6 +136,9 @@ std::string ExperimentSettings::Problem() const {
     return "scenes: expected at least one scene file (or sequences: a stored one), got none";
   if (methods.empty()) return "methods: expected at least one method file, got none";
   if (seeds.empty()) return "seeds: expected at least one seed, got none";
+  for (const FrameSummary& summary : summaries) {
+    if (std::string problem = JointsProblem(summary); !problem.empty()) return problem;
+  }
   for (const std::string& column : table_columns) {
     if (const std::string problem = UnknownMetricProblem(column); !problem.empty())
       return "table_columns: " + problem;

@@ -63,6 +63,7 @@ struct ExperimentSettings {
   std::vector<std::string> table_columns;  // none: the usual ones
   bool side_by_side = false;
   ScoreSettings score;
+  std::vector<FrameSummary> summaries;
 
   void Describe(Fields& fields);
   std::string Problem() const;

@@ -213,6 +213,7 @@ ExperimentPlan PlanExperiment(const ExperimentSettings& settings, const fs::path
   plan.record.picture_frames = settings.picture_frames;
   plan.record.side_by_side = settings.side_by_side;
   plan.record.table_columns = settings.table_columns;
+  plan.record.summaries = settings.summaries;
   plan.record.sweep = SweptSettings(settings);
   for (const ExpectationSettings& e : settings.expectations) {
     plan.record.expectations.push_back(e.AsRecorded());
@@ -248,6 +249,7 @@ std::vector<PlannedRun> PlannedRuns(const ExperimentPlan& plan, const WorkFolder
     planned.frames = run.frames;
     planned.timed = plan.timed;
     planned.work = work;
+    planned.summaries = plan.record.summaries;
     if (run.sequence.empty()) planned.shares = SequenceOf(run, work.sequences);
   }
   return runs;

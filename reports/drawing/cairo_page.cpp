@@ -126,10 +126,10 @@ void Draw(cairo_t* cairo, const PictureShape& shape) {
   cairo_restore(cairo);
 }
 
-void DrawAll(const Surface& surface, const std::vector<Shape>& shapes, double scale) {
+void DrawAll(const Surface& surface, const std::vector<PageShape>& shapes, double scale) {
   const Context context = DrawingOn(surface);
   cairo_scale(context.get(), scale, scale);
-  for (const Shape& shape : shapes) {
+  for (const PageShape& shape : shapes) {
     std::visit([&](const auto& s) { Draw(context.get(), s); }, shape);
   }
   Check(cairo_status(context.get()));
@@ -137,7 +137,8 @@ void DrawAll(const Surface& surface, const std::vector<Shape>& shapes, double sc
 
 }  // namespace
 
-std::string ToPdf(const std::vector<Shape>& shapes, double width, double height, double unit_pt) {
+std::string ToPdf(const std::vector<PageShape>& shapes, double width, double height,
+                  double unit_pt) {
   std::string file;
   const Surface surface =
       Owned(cairo_pdf_surface_create_for_stream(Append, &file, width * unit_pt, height * unit_pt));
@@ -149,7 +150,7 @@ std::string ToPdf(const std::vector<Shape>& shapes, double width, double height,
   return file;
 }
 
-std::string ToPng(const std::vector<Shape>& shapes, double width, double height, double scale) {
+std::string ToPng(const std::vector<PageShape>& shapes, double width, double height, double scale) {
   const Surface surface = Owned(
       cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::ceil(width * scale)),
                                  static_cast<int>(std::ceil(height * scale))));

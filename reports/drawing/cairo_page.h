@@ -11,9 +11,10 @@ namespace vitruvia {
 
 // The file's content: a page of width × height units, each `unit_pt` points (1/72 inch) long.
 // RunError if Cairo cannot draw it.
-std::string ToPdf(const std::vector<Shape>& shapes, double width, double height, double unit_pt);
+std::string ToPdf(const std::vector<PageShape>& shapes, double width, double height,
+                  double unit_pt);
 // At `scale` pixels a unit, on white.
-std::string ToPng(const std::vector<Shape>& shapes, double width, double height, double scale);
+std::string ToPng(const std::vector<PageShape>& shapes, double width, double height, double scale);
 
 double MeasuredWidth(const std::string& text, const TextStyle& style);
 

@@ -66,7 +66,7 @@ struct PictureShape {
   double width = 0.0, height = 0.0;
   const ColorImage* picture = nullptr;
 };
-using Shape = std::variant<PolylineShape, PolygonShape, DiscShape, TextShape, PictureShape>;
+using PageShape = std::variant<PolylineShape, PolygonShape, DiscShape, TextShape, PictureShape>;
 
 // Collects what is drawn, in order: later shapes cover earlier ones.
 class Canvas {
@@ -82,10 +82,10 @@ class Canvas {
   // The picture must outlive the canvas.
   void Picture(Point top_left, double width, double height, const ColorImage& picture);
 
-  const std::vector<Shape>& shapes() const { return shapes_; }
+  const std::vector<PageShape>& shapes() const { return shapes_; }
 
  private:
-  std::vector<Shape> shapes_;
+  std::vector<PageShape> shapes_;
 };
 
 }  // namespace vitruvia

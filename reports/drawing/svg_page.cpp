@@ -54,7 +54,8 @@ std::string Element(const PictureShape& p) {
 
 }  // namespace
 
-std::string ToSvg(const std::vector<Shape>& shapes, double width, double height, double unit_pt) {
+std::string ToSvg(const std::vector<PageShape>& shapes, double width, double height,
+                  double unit_pt) {
   std::string svg = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<svg viewBox=\"0 0 {0:.7g} {1:.7g}\" width=\"{2:.7g}pt\" height=\"{3:.7g}pt\" "
@@ -62,7 +63,7 @@ std::string ToSvg(const std::vector<Shape>& shapes, double width, double height,
       "font-family=\"'{4}', Arial, Helvetica, sans-serif\">\n"
       "<rect width=\"{0:.7g}\" height=\"{1:.7g}\" fill=\"#ffffff\"/>\n",
       width, height, width * unit_pt, height * unit_pt, kFontFamily);
-  for (const Shape& shape : shapes) {
+  for (const PageShape& shape : shapes) {
     svg += std::visit([](const auto& s) { return Element(s); }, shape);
   }
   return svg + "</svg>\n";

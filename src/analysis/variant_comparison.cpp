@@ -202,12 +202,14 @@ bool IsZeroInAll(const std::vector<Contender>& contenders, const Metric& metric)
 
 // Means of counts are printed with a decimal.
 std::vector<Metric> TabulatedMetrics(const std::vector<Contender>& contenders,
-                                     const std::vector<std::string>& asked) {
+                                     const ExperimentRecord& experiment) {
   std::vector<Metric> metrics;
-  for (const std::string& key : asked) metrics.push_back(FindMetric(key));
-  if (asked.empty()) {
+  for (const std::string& key : experiment.table_columns) metrics.push_back(FindMetric(key));
+  if (experiment.table_columns.empty()) {
     metrics = MetricsShownIn(Place::kVariantTable);
     std::erase_if(metrics, [&](const Metric& metric) { return IsZeroInAll(contenders, metric); });
+    for (const FrameSummary& summary : experiment.summaries)
+      metrics.push_back(FindMetric("summary[" + summary.name + "]"));
   }
   for (Metric& metric : metrics) metric.decimals = std::max(metric.decimals, 1);
   return metrics;
@@ -318,7 +320,7 @@ std::vector<VariantComparison> CompareVariants(const ReportedExperiment& experim
 
 VariantTable TabulateVariants(const ReportedExperiment& experiment) {
   const std::vector<Contender> contenders = ContendersOf(experiment);
-  VariantTable table{"", TabulatedMetrics(contenders, experiment.record.table_columns), {}};
+  VariantTable table{"", TabulatedMetrics(contenders, experiment.record), {}};
   if (contenders.empty()) return table;
   const Contender& reference = contenders[DefaultContender(experiment, contenders)];
   table.reference = reference.name;
@@ -357,7 +359,7 @@ VariantTable TabulateScenes(const ReportedExperiment& experiment) {
       found->runs.push_back(run);
     }
   }
-  VariantTable table{"", TabulatedMetrics(scenes, experiment.record.table_columns), {}};
+  VariantTable table{"", TabulatedMetrics(scenes, experiment.record), {}};
   for (const Contender& scene : scenes) {
     VariantSummary row{scene.name, static_cast<int>(scene.runs.size()), {}};
     for (const Metric& metric : table.metrics)

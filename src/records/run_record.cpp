@@ -146,6 +146,8 @@ void ExperimentRecord::Describe(Fields& f) {
   f.Texts(
       "table_columns", table_columns,
       {.meaning = "metrics of the table of variants; absent: the usual ones", .optional = true});
+  f.List("summaries", summaries,
+         {.meaning = "summaries that the experiment defines", .optional = true});
   f.List("sweep", sweep, {.meaning = "settings that the variants sweep", .optional = true});
   f.Texts("run_ids", run_ids, {.meaning = "runs of the experiment, in the order of its grid"});
   f.Map("failed_runs", failed_runs, {.meaning = "run → why it failed or is out of date"});

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "config/stored_data.h"
+#include "records/frame_summary.h"
 
 namespace vitruvia {
 
@@ -88,6 +89,7 @@ struct ExperimentRecord {
   std::vector<int> picture_frames;  // of the report's picture strips; none: spread over the run
   bool side_by_side = false;        // whether the report shows runs below each other
   std::vector<std::string> table_columns{};  // metrics of the variants' table; none: the usual ones
+  std::vector<FrameSummary> summaries{};     // of the experiment's own
   std::vector<SweptSetting> sweep{};         // what the variants' names after a comma say
   std::vector<std::string> run_ids;  // in the order of the grid; a missing run is reported as such
   std::map<std::string, std::string> failed_runs;  // run id → reason

@@ -149,7 +149,7 @@ int DashedLines(const Panel& panel) {
   Canvas canvas;
   DrawFigure(canvas, {"f", "", "", 1, {panel}});
   int dashed = 0;
-  for (const Shape& shape : canvas.shapes()) {
+  for (const PageShape& shape : canvas.shapes()) {
     const auto* line = std::get_if<PolylineShape>(&shape);
     dashed += line != nullptr && line->stroke.dash > 0.0 ? 1 : 0;
   }
@@ -191,7 +191,7 @@ TEST(DrawFigure, KeepsItsTextInsideAtAnyWidth) {
     Canvas canvas;
     DrawFigure(canvas, figure, style);
     const double height = FigureHeight(figure, style);
-    for (const Shape& shape : canvas.shapes()) {
+    for (const PageShape& shape : canvas.shapes()) {
       const auto* text = std::get_if<TextShape>(&shape);
       if (text == nullptr) continue;
       const bool upwards = text->style.direction == Direction::kUpwards;
