@@ -57,7 +57,7 @@ std::vector<Tick> Axis::LinearTicks(int count) const {
   const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + kRounding)));
   std::vector<Tick> ticks;
   for (double i = std::ceil(start_ / step - kRounding); Holds(i * step); ++i)
-    ticks.push_back({i * step, fmt::format("{:.{}f}", i * step, decimals)});
+    ticks.push_back({i * step, fmt::format("{:.{}f}", i * step + 0.0, decimals)});  // no −0
   return ticks;
 }
 

@@ -186,13 +186,26 @@ int ColumnsOf(const Figure& figure, const FigureStyle& style) {
   return std::clamp(static_cast<int>(style.width / narrowest), 1, std::max(figure.columns, 1));
 }
 
-// How high the axes of a panel are. Rows of bars and of cells have a height of their own.
+// The most lines that a name beside an axis needs.
+std::size_t LinesOfNames(const Panel& panel, double width, const Texts& texts) {
+  std::size_t most = 1;
+  for (const Tick& tick : panel.y_ticks)
+    most = std::max(most, WrappedText(tick.label, width, texts.TickText()).size());
+  return most;
+}
+
+// How high the axes of a panel are. Rows of bars and of cells have a height of their own, in which
+// their names have room.
 double AxesHeight(const Figure& figure, double usual_panel, double panel_width,
                   const Texts& texts) {
-  std::size_t names = 0;
-  for (const Panel& panel : figure.panels) names = std::max(names, panel.y_ticks.size());
-  if (names > 0)
-    return texts.scale * kRowHeight * static_cast<double>(std::max<std::size_t>(names, 2));
+  double height = 0.0;
+  for (const Panel& panel : figure.panels) {
+    const std::size_t lines = LinesOfNames(panel, kWidestNames * panel_width, texts);
+    const double row =
+        std::max(kRowHeight * texts.scale, (static_cast<double>(lines) + 0.5) * texts.Line());
+    height = std::max(height, row * static_cast<double>(panel.y_ticks.size()));
+  }
+  if (height > 0.0) return std::max(height, 2.0 * kRowHeight * texts.scale);
   return std::min(usual_panel - 84.0 * texts.scale, kTallest * panel_width);
 }
 

@@ -1,5 +1,6 @@
 // All strips of a run on one sheet.
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -62,8 +63,8 @@ class Sheet {
     PlaceLegend();
   }
 
-  double width() const { return width_; }
-  double height() const { return height_; }
+  double width() const { return std::ceil(width_); }
+  double height() const { return std::ceil(height_); }
 
   void Draw(Canvas& canvas) const {
     for (std::size_t i = 0; i < run_.titles.size(); ++i) DrawTitle(canvas, i);

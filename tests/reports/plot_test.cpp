@@ -101,10 +101,10 @@ TEST(MakeFigures, ShowsTheStoredNumbers) {
   EXPECT_EQ(figures[0].panels[1].series[0].y[2], 1.5);
   const Panel& speed = figures[2].panels[0];
   ASSERT_EQ(speed.title, "walk");
-  ASSERT_EQ(speed.series.size(), 2u);
-  EXPECT_EQ(speed.series[0].x[0], 6.0);
-  EXPECT_EQ(speed.series[0].x_reach[0], 7.0);
-  EXPECT_DOUBLE_EQ(speed.series[0].y[0], 0.1);
+  ASSERT_EQ(speed.series.size(), 3u);  // the front, and two variants
+  EXPECT_EQ(speed.series[1].x[0], 6.0);
+  EXPECT_EQ(speed.series[1].x_reach[0], 7.0);
+  EXPECT_DOUBLE_EQ(speed.series[1].y[0], 0.1);
   EXPECT_EQ(speed.x_references[0].value, 25.0);
   EXPECT_EQ(speed.x_references[0].label, "paper A, table 1: 25 ms");
   EXPECT_EQ(figures[3].panels[0].series[0].y[0], 50.0);  // percent

@@ -113,8 +113,8 @@ TEST(MakeStepFigure, StacksTheStepsOfEachVariant) {
   ASSERT_TRUE(figure);
   const Panel& panel = figure->panels[0];
   ASSERT_EQ(panel.series.size(), 2u);
-  EXPECT_THAT(panel.series[0].x, ElementsAre(1.5, 1.5, 1.5));    // the mean of both seeds
-  EXPECT_EQ(panel.y_ticks[2].label, "edge=4,weight=1");  // the first variant is on top
+  EXPECT_THAT(panel.series[0].x, ElementsAre(1.5, 1.5, 1.5));  // the mean of both seeds
+  EXPECT_EQ(panel.y_ticks[2].label, "edge=4,weight=1");        // the first variant is on top
 }
 
 }  // namespace
