@@ -8,17 +8,17 @@ find_package(Boost 1.74 REQUIRED)  # Boost.Math, headers only
 find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgcodecs imgproc)
 find_package(CLI11 2.1 REQUIRED)
 find_package(VTK 9.1 REQUIRED COMPONENTS
-  ChartsCore CommonColor CommonCore CommonDataModel FiltersCore FiltersGeneral FiltersSources IOExport IOImage
-  IOXML RenderingAnnotation RenderingContext2D RenderingContextOpenGL2 RenderingCore RenderingFreeType
-  RenderingOpenGL2 ViewsContext2D)
+  CommonColor CommonCore CommonDataModel FiltersCore FiltersGeneral FiltersSources IOCore IOImage IOXML
+  RenderingAnnotation RenderingCore RenderingFreeType RenderingOpenGL2)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
+pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo cairo-pdf)
 pkg_check_modules(FLANN REQUIRED IMPORTED_TARGET flann)
 pkg_check_modules(OPENMESH REQUIRED openmesh)
 set(OpenMesh_VERSION ${OPENMESH_VERSION})  # its CMake config does not say; run records do
 
 # Third-party headers are not ours to warn about.
-foreach(target nlohmann_json::nlohmann_json fmt::fmt Eigen3::Eigen PkgConfig::OSMESA PkgConfig::FLANN)
+foreach(target nlohmann_json::nlohmann_json fmt::fmt Eigen3::Eigen PkgConfig::OSMESA PkgConfig::CAIRO PkgConfig::FLANN)
   get_target_property(includes ${target} INTERFACE_INCLUDE_DIRECTORIES)
   if(includes)
     set_target_properties(${target} PROPERTIES INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${includes}")

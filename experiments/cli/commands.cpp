@@ -9,7 +9,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "analysis/experiment_runs.h"
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -24,8 +23,8 @@
 #include "experiments/cli/learn_command.h"
 #include "experiments/cli/learn_joints_command.h"
 #include "experiments/cli/learn_shape_command.h"
-#include "experiments/cli/problems.h"
 #include "experiments/cli/regress_command.h"
+#include "experiments/cli/report_command.h"
 #include "experiments/cli/reproduce_command.h"
 #include "experiments/cli/rescore_command.h"
 #include "experiments/cli/rig_command.h"
@@ -40,7 +39,6 @@
 #include "experiments/cli/track_command.h"
 #include "experiments/cli/verify_command.h"
 #include "experiments/plan/run_plan.h"
-#include "reports/pages/report.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -84,13 +82,8 @@ void Synthesize(const fs::path& scene_file, const fs::path& output) {
   fmt::print("{}\n", output.string());
 }
 
-void Report(const fs::path& folder) {
-  PrintProblems(ReadExperiment(folder));
-  fmt::print("report: {}\n", WriteReport(folder).string());
-}
-
 struct Arguments {
-  fs::path scene, verified, reported, output;
+  fs::path scene, verified, output;
   std::string key;
 };
 
@@ -124,12 +117,7 @@ void AddCommands(CLI::App& app, Arguments& a) {
   AddRescoreCommand(app);
   AddExportCommand(app);
   AddImportCommand(app);
-
-  CLI::App* report =
-      app.add_subcommand("report", "Draw an experiment's report again from its records");
-  report->add_option("DIR", a.reported, "the experiment's folder")->required();
-  report->callback([&a] { Report(a.reported); });
-
+  AddReportCommand(app);
   AddIndexCommand(app);
   AddCompareCommand(app);
   AddRegressCommand(app);

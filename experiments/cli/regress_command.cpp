@@ -16,6 +16,7 @@
 #include "core/files.h"
 #include "experiments/cli/regress_config.h"
 #include "experiments/plan/experiment_config.h"
+#include "experiments/studies/experiment_kinds.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -64,6 +65,15 @@ void CheckArguments(const RegressArguments& a) {
     throw ConfigError(fmt::format("regress: --baseline-program {}: {}; expected an executable file",
                                   a.baseline_program.string(), std::strerror(errno)));
   }
+}
+
+// What is misspelt or not there is told before hours are spent on measuring.
+void CheckExperiments(const std::vector<GatedExperiment>& experiments, const RegressArguments& a) {
+  if (experiments.empty())
+    throw ConfigError(fmt::format("regress: {}: no experiment whose name contains \"{}\"",
+                                  a.config.string(), a.only));
+  for (const GatedExperiment& gated : experiments)
+    PlanAnyExperiment(gated.experiment, {"sequences", "learned"});
 }
 
 MeasuredRuns Measured(const RegressArguments& a, const RegressSettings& settings,
@@ -119,6 +129,7 @@ void Regress(const RegressArguments& a) {
   const std::string commit = GetBuildInfo().commit;
   const GateBaseline baseline = a.update ? GateBaseline() : SelectedBaseline(places, a.only);
   std::vector<HistoryEntry> history = ReadHistory(places.history);
+  CheckExperiments(Selected(settings, a.only), a);
   MakeFolder(places.output);
   const MeasuredRuns measured = Measured(a, settings, places);
   if (a.update) return Renew(a, places, measured);

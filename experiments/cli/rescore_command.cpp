@@ -7,6 +7,8 @@
 #include "core/error.h"
 #include "core/message.h"
 #include "core/pattern.h"
+#include "experiments/cli/experiment_folder.h"
+#include "experiments/plan/experiment_config.h"
 #include "experiments/run/experiment_files.h"
 #include "experiments/run/run_state.h"
 #include "scoring/rescore.h"
@@ -27,19 +29,21 @@ nlohmann::json ResultsOf(const RunRecord& record) {
 }
 
 // Returns whether any number changed.
-bool RescoreRun(const fs::path& folder, const std::string& run_id) {
+bool RescoreRun(const fs::path& folder, const std::string& run_id,
+                const std::vector<FrameSummary>& summaries) {
   const std::optional<FileLock> claim = ClaimRun(folder / run_id);
   if (!claim) throw RunError(fmt::format("{}: another process carries it out", run_id));
   const RunRecord before = ReadRunRecord(folder, run_id);
-  const RunRecord after = Rescored(folder, before);
+  const RunRecord after = Rescored(folder, before, summaries);
   WriteRunRecord(folder, after);
   return ResultsOf(before) != ResultsOf(after);
 }
 
 // A run whose record or estimate cannot be read is named and left as it is.
-void RescoreIfReadable(const fs::path& folder, const std::string& run_id, Counts& counts) {
+void RescoreIfReadable(const fs::path& folder, const std::string& run_id,
+                       const std::vector<FrameSummary>& summaries, Counts& counts) {
   try {
-    const bool differs = RescoreRun(folder, run_id);
+    const bool differs = RescoreRun(folder, run_id, summaries);
     fmt::print("{}: {}\n", run_id, differs ? "changed" : "the same");
     ++counts.rescored;
     counts.changed += differs ? 1 : 0;
@@ -51,14 +55,15 @@ void RescoreIfReadable(const fs::path& folder, const std::string& run_id, Counts
 
 void Rescore(const fs::path& folder, const std::string& only) {
   Counts counts;
-  for (const std::string& run_id : ReadExperimentRecord(folder).run_ids) {
+  const ExperimentRecord experiment = ReadExperimentRecord(folder);
+  for (const std::string& run_id : experiment.run_ids) {
     if (!only.empty() && !MatchesPattern(only, run_id)) continue;
     if (!fs::exists(folder / run_id / "record.json")) continue;
     if (!fs::is_directory(folder / run_id / "estimate")) {
       fmt::print("{}: has no estimate, its record stays as it is\n", run_id);
       continue;
     }
-    RescoreIfReadable(folder, run_id, counts);
+    RescoreIfReadable(folder, run_id, experiment.summaries, counts);
   }
   if (counts.rescored + counts.damaged == 0)
     throw DataError(fmt::format("{}: holds no run to score again", folder.string()));
@@ -72,19 +77,40 @@ void Rescore(const fs::path& folder, const std::string& only) {
                     folder.string(), counts.damaged));
 }
 
+// What the experiment file says now of how runs are summarised and shown goes into the folder.
+void TakeOverPresentation(const fs::path& experiment_file, const fs::path& folder) {
+  const auto settings = ReadSettingsFile<ExperimentSettings>(experiment_file);
+  const FileLock lock = LockExperiment(folder);
+  ExperimentRecord record = ReadExperimentRecord(folder);
+  record.summaries = settings.summaries;
+  record.table_columns = settings.table_columns;
+  WriteExperimentRecord(folder, record);
+}
+
+bool IsTrackingExperiment(const fs::path& file) {
+  return fs::is_regular_file(file) &&
+         ReadJsonFile(file).value("kind", std::string(kTrackingKind)) == kTrackingKind;
+}
+
 }  // namespace
 
 void AddRescoreCommand(CLI::App& app) {
   struct RescoreArguments {
-    fs::path folder;
+    fs::path experiment, output;
     std::string only;
   };
   auto a = std::make_shared<RescoreArguments>();
   CLI::App* rescore = app.add_subcommand(
       "rescore", "Compute all metrics again from stored estimates, without tracking");
-  rescore->add_option("DIR", a->folder, "the experiment's folder")->required();
+  AddExperimentArgument(*rescore, a->experiment, a->output);
   rescore->add_option("--only", a->only, "only runs whose id matches this pattern (* ? [abc])");
-  rescore->callback([a] { Rescore(a->folder, a->only); });
+  rescore->footer(
+      "Given the experiment file, its summaries and table_columns replace those of the folder.");
+  rescore->callback([a] {
+    const fs::path folder = ExperimentFolder(a->experiment, a->output);
+    if (IsTrackingExperiment(a->experiment)) TakeOverPresentation(a->experiment, folder);
+    Rescore(folder, a->only);
+  });
 }
 
 }  // namespace vitruvia

@@ -41,8 +41,7 @@ void WriteSheet(const Rig& rig, const std::vector<TriangleMesh>& meshes, const f
   RunPictures pictures;
   MeshView view(kPictureSize, kPictureSize);
   DrawSurfaceStrips(RigStrips(rig, meshes, kFrames), view, pictures);
-  DrawingWriter writer;
-  WritePictureSheet(writer, stem, pictures);
+  WritePictureSheet(DrawingWriter(), stem, pictures);
 }
 
 void Print(const Rig& rig) {

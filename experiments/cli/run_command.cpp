@@ -39,7 +39,7 @@ struct RunArguments {
   fs::path experiment, output;
   RunSelection selection;
   int jobs = 1;
-  bool dry_run = false;
+  bool dry_run = false, again = false;
 };
 
 std::vector<RunRecord> FinishedRuns(const fs::path& folder, const std::vector<PlannedRun>& runs) {
@@ -107,11 +107,38 @@ void RequireSuccess(const PlannedExperiment& plan, const std::vector<PlannedRun>
                 fmt::format("too many frames failed in {} of {} runs", doubtful, runs.size()));
 }
 
+// Their status only: who reads the folder meanwhile still finds the records.
+void ForgetRuns(const fs::path& folder, const std::vector<PlannedRun>& runs) {
+  for (const PlannedRun& run : runs) {
+    const std::optional<FileLock> claim = ClaimRun(folder / run.run_id);
+    if (!claim)
+      throw RunError(
+          fmt::format("{}: another process carries it out; it cannot begin again", run.run_id));
+    MarkBegun(folder / run.run_id);
+  }
+}
+
+ExperimentOutcome CarryOutOrSayHowFar(const PlannedExperiment& plan,
+                                      const std::vector<PlannedRun>& runs, int jobs) {
+  try {
+    return CarryOutRuns(runs, jobs, plan.folder);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kInterrupted) throw;
+    const auto done = std::count_if(runs.begin(), runs.end(), [&](const PlannedRun& run) {
+      return StatusOf(plan.folder / run.run_id, run.key).state == RunState::kDone;
+    });
+    throw Error(ExitCode::kInterrupted, fmt::format("interrupted, {} of {} runs done; run again to "
+                                                    "go on",
+                                                    done, runs.size()));
+  }
+}
+
 void CarryOut(const PlannedExperiment& plan, const std::vector<PlannedRun>& runs,
               const RunArguments& arguments) {
   MachineLockFile();  // what is wrong with it is told before anything is written
   WritePlan(plan.experiment, plan.file, plan.folder);
-  const ExperimentOutcome outcome = CarryOutRuns(runs, arguments.jobs, plan.folder);
+  if (arguments.again) ForgetRuns(plan.folder, runs);
+  const ExperimentOutcome outcome = CarryOutOrSayHowFar(plan, runs, arguments.jobs);
   PrintRows(plan.folder, runs);
   fmt::print("{} runs done, {} kept, {} failed\n", outcome.done, outcome.kept, outcome.failed);
   FinishExperiment(plan.folder, !arguments.selection.shard.empty());
@@ -184,6 +211,7 @@ void AddRunCommand(CLI::App& app) {
       ->check(CLI::Range(1, kMostJobs));
   run->add_flag("--dry-run", a->dry_run,
                 "only print the runs, the state of each, and an estimate of the time");
+  run->add_flag("--again", a->again, "carry out the chosen runs again, also those that are done");
   run->footer(kRunFooter);
   run->callback([a] { Run(*a); });
 }

@@ -24,7 +24,19 @@ std::string NoteOn(const RunStatus& status, double limit) {
   return status.reason.empty() ? "" : ": " + status.reason;
 }
 
-void PrintStatus(const fs::path& folder, const StoredPlan& plan) {
+// Runs of settings that the experiment no longer has: named, or removed.
+void HandleOldRuns(const fs::path& folder, const StoredPlan& plan, bool prune) {
+  const std::vector<fs::path> old = OldRunFolders(folder, plan);
+  for (const fs::path& run : old) {
+    if (prune) fs::remove_all(run);
+    fmt::print("{:<8} {}\n", prune ? "removed" : "old", run.filename().string());
+  }
+  if (!old.empty() && !prune)
+    fmt::print("{} old runs, of settings that the experiment no longer has; --prune removes them\n",
+               old.size());
+}
+
+void PrintStatus(const fs::path& folder, const StoredPlan& plan, bool prune) {
   std::map<RunState, int> count;
   int doubtful = 0;
   for (const auto& [run_id, key] : plan.runs) {
@@ -34,6 +46,7 @@ void PrintStatus(const fs::path& folder, const StoredPlan& plan) {
     fmt::print("{:<8} {}{}\n", Name(status.state), run_id,
                NoteOn(status, plan.failed_frames_limit));
   }
+  HandleOldRuns(folder, plan, prune);
   fmt::print("{}: {} runs", folder.string(), plan.runs.size());
   for (const auto& [state, runs_of_state] : count)
     fmt::print(", {} {}", runs_of_state, Name(state));
@@ -46,20 +59,20 @@ void PrintStatus(const fs::path& folder, const StoredPlan& plan) {
 }
 
 // What the experiment file means now, to this build.
-void PrintStatusOfFile(const fs::path& experiment_file, const fs::path& output) {
+void PrintStatusOfFile(const fs::path& experiment_file, const fs::path& output, bool prune) {
   const PlannedExperiment planned = PlanForOutput(experiment_file, output);
   StoredPlan plan;
   plan.failed_frames_limit = planned.experiment.failed_frames_limit;
   for (const PlannedRun& run : planned.experiment.runs) plan.runs.push_back({run.run_id, run.key});
-  PrintStatus(planned.folder, plan);
+  PrintStatus(planned.folder, plan, prune);
 }
 
 // What it meant when the folder was last written to.
-void PrintStatusOfFolder(const fs::path& folder) {
+void PrintStatusOfFolder(const fs::path& folder, bool prune) {
   const StoredPlan plan = ReadStoredPlan(folder);
   if (plan.build_id != GetBuildInfo().build_id)
     fmt::print("planned by another build of vitruvia, to which all of its runs are stale\n");
-  PrintStatus(folder, plan);
+  PrintStatus(folder, plan, prune);
 }
 
 }  // namespace
@@ -67,6 +80,7 @@ void PrintStatusOfFolder(const fs::path& folder) {
 void AddStatusCommand(CLI::App& app) {
   struct StatusArguments {
     fs::path experiment, output;
+    bool prune = false;
   };
   auto a = std::make_shared<StatusArguments>();
   CLI::App* status = app.add_subcommand(
@@ -76,12 +90,15 @@ void AddStatusCommand(CLI::App& app) {
   status->add_option("EXPERIMENT", a->experiment, "experiment file, or an experiment's folder")
       ->required();
   status->add_option("-o,--output", a->output, "the experiment's folder; without it out/NAME");
+  status->add_flag("--prune", a->prune,
+                   "remove the folders of runs of settings that the experiment no longer has");
   status->callback([a] {
-    if (!fs::is_directory(a->experiment)) return PrintStatusOfFile(a->experiment, a->output);
+    if (!fs::is_directory(a->experiment))
+      return PrintStatusOfFile(a->experiment, a->output, a->prune);
     if (!a->output.empty())
       throw ConfigError(
           "status: expected an experiment's folder, or an experiment file and -o DIR");
-    PrintStatusOfFolder(a->experiment);
+    PrintStatusOfFolder(a->experiment, a->prune);
   });
 }
 

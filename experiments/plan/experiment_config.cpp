@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "experiments/plan/overrides.h"
 #include "metrics/catalogue.h"
+#include "scoring/summaries.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -118,13 +119,22 @@ void ExperimentSettings::Describe(Fields& f) {
          {.meaning = "values of the paper that the report prints beside ours"});
   f.Integers(
       "picture_frames", picture_frames,
-      {.meaning = "numbers of the frames that the report shows pictures of", .min = 0, .max = 1e9});
+      {.meaning = "numbers of the frames that the report shows pictures of; none: four from the "
+                  "first to the last",
+       .min = 0,
+       .max = 1e9});
+  f.Texts("table_columns", table_columns,
+          {.meaning = "keys of the metrics (vitruvia explain) that the table of variants and plots "
+                      "over swept settings show; none: the usual ones"});
   f.Flag("side_by_side", side_by_side,
          {.meaning =
               "true: the report also shows the picture_frames of all runs of a sequence below "
               "each other, the body's front and back in two colours, so that jitter and twisted "
               "limbs can be seen"});
   f.Section("score", score, {.meaning = "metrics that are measured in addition to the usual ones"});
+  f.List("summaries", summaries,
+         {.meaning = "summaries over the frames of a run; vitruvia rescore FILE computes them of "
+                     "runs that were carried out without"});
 }
 
 std::string ExperimentSettings::Problem() const {
@@ -132,6 +142,13 @@ std::string ExperimentSettings::Problem() const {
     return "scenes: expected at least one scene file (or sequences: a stored one), got none";
   if (methods.empty()) return "methods: expected at least one method file, got none";
   if (seeds.empty()) return "seeds: expected at least one seed, got none";
+  for (const FrameSummary& summary : summaries) {
+    if (std::string problem = JointsProblem(summary); !problem.empty()) return problem;
+  }
+  for (const std::string& column : table_columns) {
+    if (const std::string problem = UnknownMetricProblem(column); !problem.empty())
+      return "table_columns: " + problem;
+  }
   std::vector<std::string> names;
   for (const VariantSettings& variant : variants) {
     if (std::find(names.begin(), names.end(), variant.name) != names.end()) {

@@ -60,9 +60,11 @@ struct ExperimentSettings {
   bool timed = false;
   double failed_frames_limit = kFailedFramesLimit;
   std::vector<ExpectationSettings> expectations;
-  std::vector<int> picture_frames{0};
+  std::vector<int> picture_frames;         // none: spread over the sequence
+  std::vector<std::string> table_columns;  // none: the usual ones
   bool side_by_side = false;
   ScoreSettings score;
+  std::vector<FrameSummary> summaries;
 
   void Describe(Fields& fields);
   std::string Problem() const;

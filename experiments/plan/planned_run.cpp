@@ -26,6 +26,8 @@ void PlannedRun::Describe(Fields& f) {
   f.Flag("timed", timed, {.meaning = "whether the run has its machine to itself"});
   f.File("sequences", work.sequences, {.meaning = "folder of synthesised sequences"});
   f.File("learned", work.learned, {.meaning = "folder of learnt models and fitted subjects"});
+  f.List("summaries", summaries,
+         {.meaning = "summaries that the experiment defines", .optional = true});
 }
 
 JsonOrigin ResolvedOrigin(const char* key) { return {"resolved settings", key}; }

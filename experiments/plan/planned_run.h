@@ -38,6 +38,8 @@ struct PlannedRun {
   int frames = 0;      // 0: the run has none
   bool timed = false;  // nothing else may run beside it on its machine
   WorkFolders work;
+  // Of the experiment's own; what is stored for tracking does not depend on them.
+  std::vector<FrameSummary> summaries;
 
   std::optional<CachedFolder>
       shares;  // not stored: work that the first of several runs does for all

@@ -4,6 +4,7 @@
 #include <set>
 #include <span>
 
+#include "analysis/swept_settings.h"
 #include "config/build_cache.h"
 #include "core/error.h"
 #include "sequence/sequence_files.h"
@@ -181,6 +182,19 @@ SubjectRecipe ReadResolvedRecipe(const Json& resolved) {
           ReadResolved<IntrinsicShapeSettings>(resolved, "fit")};
 }
 
+// What the sweep changes, and the values without it: those of the first run of the first variant.
+std::vector<SweptSetting> SweptSettings(const ExperimentSettings& settings) {
+  std::vector<SweptSetting> swept;
+  if (settings.sweep.axes.empty()) return swept;
+  VariantSettings unswept;
+  if (!settings.variants.empty()) unswept = settings.variants.front();
+  const RunPlan plain = PlanRun(RecordingsOf(settings).front(), settings.methods.front(), unswept,
+                                settings.seeds.front(), settings.score);
+  for (const SweepAxis& axis : settings.sweep.axes)
+    swept.push_back({axis.setting, axis.scale, ValueAt(plain.resolved, axis.setting)});
+  return swept;
+}
+
 }  // namespace
 
 SceneSettings ReadScene(const fs::path& scene_file, const Json& overrides) {
@@ -200,6 +214,9 @@ ExperimentPlan PlanExperiment(const ExperimentSettings& settings, const fs::path
   plan.record.description = settings.description;
   plan.record.picture_frames = settings.picture_frames;
   plan.record.side_by_side = settings.side_by_side;
+  plan.record.table_columns = settings.table_columns;
+  plan.record.summaries = settings.summaries;
+  plan.record.sweep = SweptSettings(settings);
   for (const ExpectationSettings& e : settings.expectations) {
     plan.record.expectations.push_back(e.AsRecorded());
   }
@@ -234,6 +251,7 @@ std::vector<PlannedRun> PlannedRuns(const ExperimentPlan& plan, const WorkFolder
     planned.frames = run.frames;
     planned.timed = plan.timed;
     planned.work = work;
+    planned.summaries = plan.record.summaries;
     if (run.sequence.empty()) planned.shares = SequenceOf(run, work.sequences);
   }
   return runs;

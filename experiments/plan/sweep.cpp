@@ -88,7 +88,8 @@ void SweepAxis::Describe(Fields& f) {
              .min = 0,
              .max = kMostSteps});
   f.Choice("scale", scale, {{"linear", SweepScale::kLinear}, {"log", SweepScale::kLogarithmic}},
-           {.meaning = "whether differences or ratios of neighbours in the range are equal"});
+           {.meaning = "whether differences or ratios of neighbours in the range are equal; also "
+                       "the scale of plots over the setting"});
 }
 
 std::string SweepAxis::Problem() const {

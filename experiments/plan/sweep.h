@@ -9,17 +9,17 @@
 //   }
 //
 // Each variant of the experiment is carried out with each point of the sweep. The variant's name
-// says which: "default,fit.edge_px=2,scene.frames=30".
+// says which: "default,fit.edge_px=2,scene.frames=30". "scale" also says how a plot over the
+// setting shows it.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "config/json_settings.h"
+#include "records/run_record.h"
 
 namespace vitruvia {
-
-enum class SweepScale { kLinear, kLogarithmic };
 
 // The values that one setting takes: a list, or a range with both its ends.
 struct SweepAxis {

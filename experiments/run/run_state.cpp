@@ -1,5 +1,7 @@
 #include "experiments/run/run_state.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/error.h"
@@ -83,6 +85,21 @@ void MarkBegun(const fs::path& run_folder) { fs::remove(run_folder / kStatusFile
 std::optional<FileLock> ClaimRun(const fs::path& run_folder) {
   MakeFolder(run_folder);
   return FileLock::Try(run_folder / kLockFile, LockKind::kExclusive);
+}
+
+std::vector<fs::path> OldRunFolders(const fs::path& experiment_folder, const StoredPlan& plan) {
+  std::vector<fs::path> old;
+  if (!fs::is_directory(experiment_folder)) return old;
+  for (const auto& entry : fs::directory_iterator(experiment_folder)) {
+    const fs::path& folder = entry.path();
+    const bool is_run = fs::exists(folder / "run.json") || fs::exists(folder / "record.json");
+    const bool is_planned = std::any_of(
+        plan.runs.begin(), plan.runs.end(),
+        [&](const StoredPlan::Run& run) { return run.run_id == folder.filename().string(); });
+    if (is_run && !is_planned && !FileLock::Held(folder / kLockFile)) old.push_back(folder);
+  }
+  std::sort(old.begin(), old.end());
+  return old;
 }
 
 void StoredPlan::Run::Describe(Fields& f) {

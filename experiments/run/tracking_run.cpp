@@ -11,6 +11,7 @@
 #include "experiments/plan/run_plan.h"
 #include "geometry/mesh.h"
 #include "scoring/score.h"
+#include "scoring/summaries.h"
 #include "tracking/astray.h"
 #include "verification/verification.h"
 
@@ -75,6 +76,7 @@ RunRecord RecordOf(const RunPlan& run, const std::string& experiment) {
   record.seed = run.seed;
   record.config = WithPortablePaths(run.resolved);
   record.provenance = TimedProvenance();
+  record.provenance["threads"] = run.method.settings.value("threads", 1);
   record.summary = {{"run_id", run.run_id},
                     {"variant", run.variant},
                     {"scene", run.scene},
@@ -132,6 +134,7 @@ RunRecord CarryOutTracking(const PlannedRun& planned, const fs::path& run_folder
   record.warnings = std::move(warnings);
   const EstimateReader estimate(run_folder / "estimate");
   ScoreRun(sequence, estimate, run.score, record);
+  AddSummaries(sequence, estimate, planned.summaries, record);
   WriteWholeFile(run_folder / "log", LogOf(estimate));
   return record;
 }

@@ -7,9 +7,19 @@
 namespace vitruvia {
 namespace fs = std::filesystem;
 
+namespace {
+
+constexpr const char* kUsualRoot = "out";
+
+}  // namespace
+
+fs::path OutputFolder(const fs::path& experiment_file, const fs::path& output) {
+  return output.empty() ? kUsualRoot / fs::path(ConfigName(experiment_file)) : output;
+}
+
 PlannedExperiment PlanForOutput(const fs::path& experiment_file, const fs::path& output) {
-  const fs::path root = output.empty() ? fs::path("out") : output;
-  const fs::path folder = output.empty() ? root / ConfigName(experiment_file) : output;
+  const fs::path root = output.empty() ? fs::path(kUsualRoot) : output;
+  const fs::path folder = OutputFolder(experiment_file, output);
   PlannedExperiment planned{
       PlanAnyExperiment(experiment_file, {root / "sequences", root / "learned"}), experiment_file,
       folder, root};

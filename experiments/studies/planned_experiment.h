@@ -14,7 +14,11 @@ struct PlannedExperiment {
   std::filesystem::path root;    // below which other experiments' output may lie too
 };
 
-// The output goes to `output`, or to out/NAME if that is "". Writes nothing. ConfigError also if
+// Where the output of an experiment file goes: `output`, or out/NAME if that is "".
+std::filesystem::path OutputFolder(const std::filesystem::path& experiment_file,
+                                   const std::filesystem::path& output);
+
+// The output goes to OutputFolder. Writes nothing. ConfigError also if
 // the folder holds the output of another experiment file.
 PlannedExperiment PlanForOutput(const std::filesystem::path& experiment_file,
                                 const std::filesystem::path& output);

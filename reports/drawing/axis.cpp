@@ -29,7 +29,7 @@ double RoundedUp(double value) {
   return 10.0 * magnitude;
 }
 
-Axis Axis::Linear(double end) { return {Scale::kLinear, 0.0, end}; }
+Axis Axis::Linear(double start, double end) { return {Scale::kLinear, start, end}; }
 
 Axis Axis::Logarithmic(double low, double high) {
   const double start = RoundedDown(low);
@@ -43,20 +43,32 @@ double Axis::Share(double value) const {
   return std::clamp(share, 0.0, 1.0);
 }
 
+bool Axis::Holds(double value) const {
+  const double rounding = kRounding * std::max(std::abs(start_), std::abs(end_));
+  return value >= start_ - rounding && value <= end_ + rounding;
+}
+
 std::vector<Tick> Axis::Ticks(int count) const {
-  std::vector<Tick> ticks;
-  if (scale_ == Scale::kLogarithmic) {
-    for (double value = start_; value <= end_ * (1.0 + kRounding); value = RoundedUp(value * 1.5)) {
-      ticks.push_back({value, fmt::format("{:g}", value)});
-    }
-    return ticks;
-  }
-  const double step = RoundedUp(end_ / std::max(count, 1));
+  return scale_ == Scale::kLinear ? LinearTicks(count) : LogarithmicTicks(count);
+}
+
+std::vector<Tick> Axis::LinearTicks(int count) const {
+  const double step = RoundedUp((end_ - start_) / std::max(count, 1));
   const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + kRounding)));
-  for (int i = 0; i * step <= end_ * (1.0 + kRounding); ++i) {
-    ticks.push_back({i * step, fmt::format("{:.{}f}", i * step, decimals)});
-  }
+  std::vector<Tick> ticks;
+  for (double i = std::ceil(start_ / step - kRounding); Holds(i * step); ++i)
+    ticks.push_back({i * step, fmt::format("{:.{}f}", i * step + 0.0, decimals)});  // no −0
   return ticks;
+}
+
+std::vector<Tick> Axis::LogarithmicTicks(int count) const {
+  std::vector<Tick> all, decades;
+  for (double value = start_; Holds(value); value = RoundedUp(value * 1.5)) {
+    all.push_back({value, fmt::format("{:g}", value)});
+    const double exponent = std::log10(value);
+    if (std::abs(exponent - std::round(exponent)) < kRounding) decades.push_back(all.back());
+  }
+  return static_cast<int>(all.size()) > count && decades.size() > 1 ? decades : all;
 }
 
 }  // namespace vitruvia

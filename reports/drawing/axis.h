@@ -15,16 +15,21 @@ struct Tick {
 
 class Axis {
  public:
-  // From 0 to `end`, which must be positive.
-  static Axis Linear(double end);
+  // From `start` to `end`, which must be greater.
+  static Axis Linear(double start, double end);
   // From the last of 1, 2, 5 × 10ⁿ not above `low` to the first not below `high`; both positive.
   static Axis Logarithmic(double low, double high);
 
   double Share(double value) const;  // 0 at the start, 1 at the end; values beyond are held there
-  // At round values: about `count` on a linear axis, each of 1, 2, 5 × 10ⁿ on a logarithmic one.
+  bool Holds(double value) const;
+  // At round values: about `count` on a linear axis, each of 1, 2, 5 × 10ⁿ on a logarithmic one, or
+  // of 10ⁿ where these are more than `count`.
   std::vector<Tick> Ticks(int count) const;
 
  private:
+  std::vector<Tick> LinearTicks(int count) const;
+  std::vector<Tick> LogarithmicTicks(int count) const;
+
   Axis(Scale scale, double start, double end) : scale_(scale), start_(start), end_(end) {}
 
   Scale scale_;

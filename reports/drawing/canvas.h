@@ -1,24 +1,15 @@
-// Flat drawings with VTK's 2-D context, to PNG and SVG alike.
-//
-// VTK's own charts are not used: the SVG exporter of VTK 9.1 applies a chart's clipping inside the
-// data's transform, which cuts the curves away. Drawings here are made of lines, rectangles, discs,
-// text and pictures in page coordinates, which come out the same in both formats. The exporter
-// leaves pictures out and misplaces text in browsers; both are added to its SVG afterwards.
+// Flat drawings: lines, areas, text and pictures on a page, whatever format it is written in.
 #pragma once
 
-#include <filesystem>
-#include <functional>
-#include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "reports/drawing/offscreen.h"
 
-class vtkContext2D;
-
 namespace vitruvia {
 
-// Page coordinates: CSS pixels, origin top left, y down.
+// Page units, origin top left, y down. The writer of a drawing says how long a unit is.
 struct Point {
   double x = 0.0, y = 0.0;
 };
@@ -42,62 +33,59 @@ struct TextStyle {
   bool bold = false;
 };
 
-// What is added to an SVG after VTK.
-struct PlacedPicture {
-  Point top_left;
-  double width = 0.0, height = 0.0;
-  const ColorImage* picture = nullptr;
+// The face of all text. Arial and Helvetica have the same widths, for readers that lack it.
+inline constexpr const char* kFontFamily = "Liberation Sans";
+// How wide a text is in that face, page units.
+double TextWidth(const std::string& text, const TextStyle& style);
+// From a text's point down to its baseline.
+double BaselineShift(const TextStyle& style);
+// The text in lines that are not wider than `width` where it has spaces to break at.
+std::vector<std::string> WrappedText(const std::string& text, double width, const TextStyle& style);
+
+struct PolylineShape {
+  std::vector<Point> points;
+  Stroke stroke;
 };
-struct PlacedText {
+struct PolygonShape {
+  std::vector<Point> points;
+  Color fill{};
+  double opacity = 1.0;
+};
+struct DiscShape {
+  Point center;
+  double radius = 0.0;
+  Color fill{};
+};
+struct TextShape {
   Point at;
   std::string text;
   TextStyle style;
 };
-struct SvgAdditions {
-  std::vector<PlacedPicture> pictures;
-  std::vector<PlacedText> texts;
+struct PictureShape {
+  Point top_left;
+  double width = 0.0, height = 0.0;
+  const ColorImage* picture = nullptr;
 };
+using PageShape = std::variant<PolylineShape, PolygonShape, DiscShape, TextShape, PictureShape>;
 
+// Collects what is drawn, in order: later shapes cover earlier ones.
 class Canvas {
  public:
-  // `scale` device pixels per page unit. Pictures and text are drawn if `additions` is null, and
-  // otherwise put down there.
-  Canvas(vtkContext2D& context, double page_height, double scale, SvgAdditions* additions);
-
   void Line(Point a, Point b, const Stroke& stroke);
   void Polyline(const std::vector<Point>& points, const Stroke& stroke);
   void Rectangle(Point top_left, double width, double height, Color fill, double opacity = 1.0);
+  void Frame(Point top_left, double width, double height, const Stroke& stroke);
+  void Polygon(const std::vector<Point>& points, Color fill, double opacity = 1.0);
   void Disc(Point center, double radius, Color fill);
   void Cross(Point center, double radius, const Stroke& stroke);
   void Text(Point at, const std::string& text, const TextStyle& style);
-  // The picture must outlive the drawing.
+  // The picture must outlive the canvas.
   void Picture(Point top_left, double width, double height, const ColorImage& picture);
 
- private:
-  void SetPen(const Stroke& stroke);
-  void SetFont(const TextStyle& style);
-  float X(double x) const { return static_cast<float>(x * scale_); }
-  float Y(double y) const { return static_cast<float>((page_height_ - y) * scale_); }
-
-  vtkContext2D* context_;
-  double page_height_, scale_;
-  SvgAdditions* additions_;
-};
-
-// Writes drawings to files. One for many drawings: its OpenGL context and shaders are made once.
-class DrawingWriter {
- public:
-  DrawingWriter();
-  ~DrawingWriter();
-
-  // A drawing of width × height page units, to `stem`.svg, and to `stem`.png at twice that in
-  // pixels. RunError if one cannot be written.
-  void Write(const std::filesystem::path& stem, int width, int height,
-             const std::function<void(Canvas&)>& draw);
+  const std::vector<PageShape>& shapes() const { return shapes_; }
 
  private:
-  struct Window;
-  std::unique_ptr<Window> window_;
+  std::vector<PageShape> shapes_;
 };
 
 }  // namespace vitruvia

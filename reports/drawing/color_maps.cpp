@@ -24,22 +24,30 @@ Color Interpolated(std::span<const Color> colors, double share) {
 
 }  // namespace
 
+// Evenly spaced colours of viridis and, for errors, of magma (van der Walt and Smith, 2015), whose
+// last, black, would hide the shading.
 Color DepthColor(double share) {
-  static constexpr std::array<Color, 5> kColors = {{{0xc8, 0x1e, 0x1e},
-                                                    {0xf2, 0x8e, 0x2b},
-                                                    {0xe8, 0xe0, 0x55},
-                                                    {0x35, 0xb0, 0x9c},
-                                                    {0x2a, 0x3f, 0xa8}}};
+  static constexpr std::array<Color, 9> kColors = {{{0xfd, 0xe7, 0x25},
+                                                    {0xad, 0xdc, 0x30},
+                                                    {0x5e, 0xc9, 0x62},
+                                                    {0x28, 0xae, 0x80},
+                                                    {0x21, 0x91, 0x8c},
+                                                    {0x2c, 0x72, 0x8e},
+                                                    {0x3b, 0x52, 0x8b},
+                                                    {0x47, 0x2d, 0x7b},
+                                                    {0x44, 0x01, 0x54}}};
   return Interpolated(kColors, share);
 }
 
 Color ErrorColor(double share) {
-  static constexpr std::array<Color, 6> kColors = {{{0xf3, 0xf0, 0xe4},
-                                                    {0xfb, 0xd9, 0x7a},
-                                                    {0xf5, 0x9a, 0x3c},
-                                                    {0xdd, 0x4b, 0x25},
-                                                    {0xa3, 0x14, 0x2e},
-                                                    {0x4a, 0x04, 0x2c}}};
+  static constexpr std::array<Color, 8> kColors = {{{0xfc, 0xfd, 0xbf},
+                                                    {0xfe, 0xc2, 0x87},
+                                                    {0xfb, 0x87, 0x61},
+                                                    {0xe5, 0x50, 0x64},
+                                                    {0xb5, 0x36, 0x7a},
+                                                    {0x81, 0x25, 0x81},
+                                                    {0x4f, 0x12, 0x7b},
+                                                    {0x1c, 0x10, 0x44}}};
   return Interpolated(kColors, share);
 }
 

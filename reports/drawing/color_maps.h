@@ -7,12 +7,13 @@
 
 namespace vitruvia {
 
-// Depth as in paper A's figure 7: red is near, blue is far. `share` is 0 at the nearest depth shown
-// and 1 at the farthest; values beyond are held.
+// Both maps are perceptually uniform: equal steps look equal, in grey and to the colour-blind too.
+
+// Depth: yellow is near, dark violet is far. `share` is 0 at the nearest depth shown and 1 at the
+// farthest; values beyond are held.
 Color DepthColor(double share);
 
-// Error: pale is none, dark red is the scale's end and beyond. Lightness falls steadily, so the
-// order shows in grey and to the colour-blind alike. `share` is error / scale.
+// Error: pale is none, dark violet is the scale's end and beyond. `share` is error / scale.
 Color ErrorColor(double share);
 
 // Where an error scale ends: a round number that holds 98 % of `errors`, and `smallest` at least.

@@ -78,7 +78,6 @@ void WriteMotionStrip(const std::filesystem::path& stem, const std::string& titl
   const int height =
       static_cast<int>(kTitleHeight + kMargin + kRowHeight * static_cast<double>(rows.size()));
   DrawingWriter().Write(stem, width, height, [&](Canvas& canvas) {
-    canvas.Rectangle({0, 0}, width, height, {0xFF, 0xFF, 0xFF});
     canvas.Text({kMargin, kTitleHeight / 2}, title, {.bold = true});
     for (std::size_t i = 0; i < rows.size(); ++i) {
       DrawRow(canvas, rows[i], kTitleHeight + kRowHeight * static_cast<double>(i));

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "math/vector.h"
-#include "reports/drawing/canvas.h"
+#include "reports/drawing/drawing_writer.h"
 
 namespace vitruvia {
 

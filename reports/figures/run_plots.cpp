@@ -2,14 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <numeric>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "analysis/printed_metric.h"
+#include "analysis/variant_comparison.h"
 #include "core/error.h"
 #include "reports/drawing/color_maps.h"
+#include "reports/figures/figure_parts.h"
 #include "reports/figures/speed_figure.h"
+#include "reports/figures/step_figure.h"
+#include "reports/figures/sweep_figure.h"
 
 namespace vitruvia {
 namespace {
@@ -18,32 +23,46 @@ using Runs = std::vector<const RunRecord*>;
 
 constexpr const char* kFrameAxis = "frame (number)";
 
-// Runs that share a plot: of one scene, as many as there are colours.
-struct RunGroup {
-  std::string suffix;  // of file names and titles; "" where all runs are in one group
+// A variant's runs of one scene.
+struct VariantRuns {
+  std::string name;
+  Color color;
   Runs runs;
 };
 
-std::string FileSafe(std::string text) {
-  for (char& c : text) {
-    const bool safe = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_';
-    if (!safe) c = '-';
+// Variants that share a plot: of one scene, as many as there are colours.
+struct PlotGroup {
+  std::string suffix;  // of file names and titles; "" where all are in one group
+  std::vector<VariantRuns> variants;
+};
+
+std::vector<std::string> ScenesOf(const Runs& runs) {
+  std::vector<std::string> scenes;
+  for (const RunRecord* run : runs) {
+    if (std::find(scenes.begin(), scenes.end(), run->scene) == scenes.end())
+      scenes.push_back(run->scene);
   }
-  return text;
+  return scenes;
 }
 
-std::vector<RunGroup> Grouped(const Runs& runs) {
-  std::vector<RunGroup> groups;
-  std::map<std::string, std::size_t> open;  // scene → its group that is not full
-  std::map<std::string, int> count;
-  for (const RunRecord* run : runs) {
-    const auto found = open.find(run->scene);
-    if (found == open.end() || groups[found->second].runs.size() == kRunColors.size()) {
-      const int number = ++count[run->scene];
-      open[run->scene] = groups.size();
-      groups.push_back({number == 1 ? run->scene : fmt::format("{} {}", run->scene, number), {}});
+// The runs with frames of each scene, by variant.
+std::vector<PlotGroup> Grouped(const ReportedExperiment& experiment) {
+  const std::vector<Contender> contenders = ContendersOf(experiment);
+  std::vector<PlotGroup> groups;
+  for (const std::string& scene : ScenesOf(experiment.finished())) {
+    int count = 0;
+    for (std::size_t c = 0; c < contenders.size(); ++c) {
+      VariantRuns variant{contenders[c].name, VariantColor(c), {}};
+      for (const RunRecord* run : contenders[c].runs) {
+        if (run->scene == scene && !run->frames.empty()) variant.runs.push_back(run);
+      }
+      if (variant.runs.empty()) continue;
+      if (count == 0 || groups.back().variants.size() == kRunColors.size()) {
+        ++count;
+        groups.push_back({count == 1 ? scene : fmt::format("{} {}", scene, count), {}});
+      }
+      groups.back().variants.push_back(std::move(variant));
     }
-    groups[open[run->scene]].runs.push_back(run);
   }
   if (groups.size() == 1) groups.front().suffix.clear();
   return groups;
@@ -67,22 +86,40 @@ struct PlottedSeries {
   double (*unit_of)(const RunRecord&) = One;
 };
 
-// One line per run over the frames' numbers; crosses where frames failed.
-std::vector<Series> LinesPerFrame(const Runs& runs, const PlottedSeries& plotted) {
-  std::vector<Series> lines;
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    Series line;
-    line.name = runs[r]->run_id;
-    line.color = kRunColors[r];
-    const std::vector<double>& values = SeriesOf(*runs[r], plotted.key);
-    const std::vector<double>& failed = SeriesOf(*runs[r], "failed");
-    const double unit = plotted.unit_of(*runs[r]);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      line.x.push_back(static_cast<double>(i));
-      line.y.push_back(plotted.metric.scale * (values[i] / unit));
-      if (failed[i] != 0.0) line.failed_x.push_back(static_cast<double>(i));
+std::vector<double> ValuesOf(const RunRecord& run, const PlottedSeries& plotted) {
+  std::vector<double> values = SeriesOf(run, plotted.key);
+  const double unit = plotted.unit_of(run);
+  for (double& value : values) value = plotted.metric.scale * (value / unit);
+  return values;
+}
+
+std::vector<double> FailedFrames(const Runs& runs) {
+  std::set<double> frames;
+  for (const RunRecord* run : runs) {
+    const std::vector<double>& failed = SeriesOf(*run, "failed");
+    for (std::size_t i = 0; i < failed.size(); ++i) {
+      if (failed[i] != 0.0) frames.insert(static_cast<double>(i));
     }
-    lines.push_back(std::move(line));
+  }
+  return {frames.begin(), frames.end()};
+}
+
+std::vector<double> FrameNumbers(const Runs& runs) {
+  std::size_t frames = 0;
+  for (const RunRecord* run : runs) frames = std::max(frames, SeriesOf(*run, "failed").size());
+  std::vector<double> numbers(frames);
+  std::iota(numbers.begin(), numbers.end(), 0.0);
+  return numbers;
+}
+
+// One line per variant over the frames' numbers; crosses where frames of any of its runs failed.
+std::vector<Series> LinesPerFrame(const PlotGroup& group, const PlottedSeries& plotted) {
+  std::vector<Series> lines;
+  for (const VariantRuns& variant : group.variants) {
+    std::vector<std::vector<double>> curves;
+    for (const RunRecord* run : variant.runs) curves.push_back(ValuesOf(*run, plotted));
+    lines.push_back(MeanCurve(variant.name, variant.color, FrameNumbers(variant.runs), curves));
+    lines.back().failed_x = FailedFrames(variant.runs);
   }
   return lines;
 }
@@ -93,41 +130,41 @@ bool HasOnlyJointErrors(const RunRecord& run) {
   return HasJointErrors(run) && !HasSurfaceErrors(run);
 }
 
-double LastFrame(const Runs& runs) {
+double LastFrame(const PlotGroup& group) {
   std::size_t frames = 2;
-  for (const RunRecord* run : runs) frames = std::max(frames, SeriesOf(*run, "failed").size());
+  for (const VariantRuns& variant : group.variants)
+    frames = std::max(frames, FrameNumbers(variant.runs).size());
   return static_cast<double>(frames - 1);
 }
 
 Panel PanelPerFrame(const std::string& title, const PlottedSeries& plotted,
-                    const ExperimentRecord& experiment, const Runs& runs) {
+                    const ExperimentRecord& experiment, const PlotGroup& group) {
   Panel panel{title,
               kFrameAxis,
               Titled(plotted.metric),
-              LinesPerFrame(runs, plotted),
+              LinesPerFrame(group, plotted),
               PublishedReferences(experiment, plotted.metric),
               {}};
-  panel.x_end = LastFrame(runs);
+  panel.x_end = LastFrame(group);
   return panel;
 }
 
-Figure ErrorFigure(const ExperimentRecord& experiment, const RunGroup& group) {
+Figure ErrorFigure(const ExperimentRecord& experiment, const PlotGroup& group) {
   Figure figure;
   figure.name = "error-per-frame";
   figure.title = "Error per frame";
   figure.caption =
       "Mean and maximum distance between corresponding points of the estimated and the true "
       "surface, as a fraction of the diagonal of the subject's rest-pose bounding box.";
-  figure.panels = {PanelPerFrame("mean over the surface",
-                                 {"l2_mean_m", FindMetric("l2_mean_of_diagonal"), Diagonal},
-                                 experiment, group.runs),
-                   PanelPerFrame("maximum over the surface",
-                                 {"l2_max_m", FindMetric("l2_max_of_diagonal"), Diagonal},
-                                 experiment, group.runs)};
+  figure.panels = {
+      PanelPerFrame("mean over the surface",
+                    {"l2_mean_m", FindMetric("l2_mean_of_diagonal"), Diagonal}, experiment, group),
+      PanelPerFrame("maximum over the surface",
+                    {"l2_max_m", FindMetric("l2_max_of_diagonal"), Diagonal}, experiment, group)};
   return figure;
 }
 
-Figure JointErrorFigure(const ExperimentRecord& experiment, const RunGroup& group) {
+Figure JointErrorFigure(const ExperimentRecord& experiment, const PlotGroup& group) {
   Figure figure;
   figure.name = "joint-error-per-frame";
   figure.title = "Joint error per frame";
@@ -136,24 +173,30 @@ Figure JointErrorFigure(const ExperimentRecord& experiment, const RunGroup& grou
       "surface.";
   for (const auto& [title, key] : {std::pair{"mean over the joints", "joint_error_mean_m"},
                                    std::pair{"maximum over the joints", "joint_error_max_m"}}) {
-    figure.panels.push_back(PanelPerFrame(title, {key, FindMetric(key)}, experiment, group.runs));
+    figure.panels.push_back(PanelPerFrame(title, {key, FindMetric(key)}, experiment, group));
   }
   return figure;
 }
 
-Figure TimeFigure(const ExperimentRecord& experiment, const RunGroup& group) {
+Figure TimeFigure(const ExperimentRecord& experiment, const PlotGroup& group) {
   Figure figure;
   figure.name = "time-per-frame";
   figure.title = "Time per frame";
   figure.caption = "Wall clock round the tracker's step only, without reading, writing or scoring.";
-  Panel panel = PanelPerFrame("", {"frame_ms", FindMetric("frame_ms")}, experiment, group.runs);
+  Panel panel = PanelPerFrame("", {"frame_ms", FindMetric("frame_ms")}, experiment, group);
   panel.y_references = PublishedReferences(experiment, FindMetric("frame_ms_median"));
   panel.y_scale = Scale::kLogarithmic;  // a first frame may take ten times as long as the others
   figure.panels = {std::move(panel)};
   return figure;
 }
 
-Figure AccuracyFigure(const ExperimentRecord& /*experiment*/, const RunGroup& group) {
+std::vector<double> Scaled(std::vector<double> values) {
+  constexpr double kHundred = 1e2;  // centimetres, per cent
+  for (double& value : values) value *= kHundred;
+  return values;
+}
+
+Figure AccuracyFigure(const ExperimentRecord& /*experiment*/, const PlotGroup& group) {
   Figure figure;
   figure.name = "joint-accuracy";
   figure.title = "Joint accuracy";
@@ -164,19 +207,19 @@ Figure AccuracyFigure(const ExperimentRecord& /*experiment*/, const RunGroup& gr
   for (const std::string joints : {"all", "visible", "hidden"}) {
     Panel panel{joints + " joints", "threshold (cm)", "joints within threshold (%)", {}, {}, {}};
     panel.y_end = 100.0;
-    for (std::size_t r = 0; r < group.runs.size(); ++r) {
-      const RunRecord& run = *group.runs[r];
-      Series line;
-      line.name = run.run_id;
-      line.color = kRunColors[r];
-      const auto found = run.joint_accuracy.find(joints);
-      if (found == run.joint_accuracy.end()) continue;
-      for (std::size_t i = 0; i < run.threshold_m.size(); ++i) {
-        line.x.push_back(1e2 * run.threshold_m[i]);
-        line.y.push_back(1e2 * found->second[i]);
+    for (const VariantRuns& variant : group.variants) {
+      std::vector<double> thresholds_cm;
+      std::vector<std::vector<double>> curves;
+      for (const RunRecord* run : variant.runs) {
+        const auto found = run->joint_accuracy.find(joints);
+        if (found == run->joint_accuracy.end()) continue;
+        if (run->threshold_m.size() > thresholds_cm.size())
+          thresholds_cm = Scaled(run->threshold_m);
+        curves.push_back(Scaled(found->second));
       }
-      if (!run.threshold_m.empty()) panel.x_end = 1e2 * run.threshold_m.back();
-      panel.series.push_back(std::move(line));
+      if (curves.empty() || thresholds_cm.empty()) continue;
+      panel.x_end = thresholds_cm.back();
+      panel.series.push_back(MeanCurve(variant.name, variant.color, thresholds_cm, curves));
     }
     figure.panels.push_back(std::move(panel));
   }
@@ -187,17 +230,19 @@ Figure AccuracyFigure(const ExperimentRecord& /*experiment*/, const RunGroup& gr
 
 std::vector<Figure> MakeFigures(const ReportedExperiment& experiment) {
   std::vector<Figure> figures;
-  Runs runs = experiment.finished();  // those with frames
-  std::erase_if(runs, [](const RunRecord* run) { return run->frames.empty(); });
-  const std::vector<RunGroup> groups = Grouped(runs);
+  const std::vector<PlotGroup> groups = Grouped(experiment);
   if (groups.empty()) return figures;
   // Of the runs that measured what the figure shows.
-  const auto add_for_each_group = [&](Figure (*make)(const ExperimentRecord&, const RunGroup&),
+  const auto add_for_each_group = [&](Figure (*make)(const ExperimentRecord&, const PlotGroup&),
                                       bool (*has)(const RunRecord&)) {
-    for (RunGroup group : groups) {
-      std::erase_if(group.runs, [has](const RunRecord* run) { return !has(*run); });
-      if (group.runs.empty()) continue;
+    for (PlotGroup group : groups) {
+      for (VariantRuns& variant : group.variants)
+        std::erase_if(variant.runs, [has](const RunRecord* run) { return !has(*run); });
+      std::erase_if(group.variants, [](const VariantRuns& v) { return v.runs.empty(); });
+      if (group.variants.empty()) continue;
       Figure figure = make(experiment.record, group);
+      figure.caption += kBandText;
+      for (const VariantRuns& variant : group.variants) AddRuns(variant.name, variant.runs, figure);
       if (!group.suffix.empty()) {
         figure.name = fmt::format("{}-{}", figure.name, FileSafe(group.suffix));
         figure.title += ": " + group.suffix;
@@ -205,11 +250,13 @@ std::vector<Figure> MakeFigures(const ReportedExperiment& experiment) {
       figures.push_back(std::move(figure));
     }
   };
+  for (Figure& figure : MakeSweepFigures(experiment)) figures.push_back(std::move(figure));
   add_for_each_group(ErrorFigure, HasSurfaceErrors);
   add_for_each_group(JointErrorFigure, HasOnlyJointErrors);
   figures.push_back(MakeSpeedFigure(experiment));
   add_for_each_group(AccuracyFigure, HasJointErrors);
   add_for_each_group(TimeFigure, [](const RunRecord&) { return true; });
+  if (std::optional<Figure> steps = MakeStepFigure(experiment)) figures.push_back(*steps);
   return figures;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -11,13 +12,10 @@
 #include "math/statistics.h"
 #include "records/metric_value.h"
 #include "reports/drawing/color_maps.h"
+#include "reports/figures/figure_parts.h"
 #include "reports/figures/run_plots.h"
 
 namespace vitruvia {
-namespace {
-
-// What stands for a variant's error: the first of Place::kSpeedPlot that some run has; the first of
-// all if no run has any.
 Metric ErrorMetricOf(const ReportedExperiment& experiment) {
   const std::vector<const RunRecord*> runs = experiment.finished();
   const std::vector<Metric> metrics = MetricsShownIn(Place::kSpeedPlot);
@@ -29,6 +27,8 @@ Metric ErrorMetricOf(const ReportedExperiment& experiment) {
   }
   return metrics.front();
 }
+
+namespace {
 
 // An axis whose values differ by more than this factor is logarithmic.
 constexpr double kWideRange = 20.0;
@@ -94,7 +94,7 @@ Series FrontLine(std::vector<SpeedPoint> points) {
 Series Drawn(const SpeedPoint& point, std::size_t index, bool numbered) {
   Series series;
   series.name = numbered ? fmt::format("{} {}", index + 1, point.name) : point.name;
-  series.color = kRunColors[index % kRunColors.size()];
+  series.color = VariantColor(index);
   series.mark = point.on_front ? Mark::kPoints : Mark::kRings;
   series.x = {point.median_ms};
   series.x_reach = {point.p95_ms};
@@ -110,16 +110,28 @@ Scale ScaleFor(std::vector<double> values) {
   return *most > kWideRange * *least ? Scale::kLogarithmic : Scale::kLinear;
 }
 
+std::string ThreadsText(const ReportedExperiment& experiment) {
+  std::set<int> threads;
+  for (const RunRecord* run : experiment.finished()) {
+    if (run->provenance.contains("threads"))
+      threads.insert(run->provenance.at("threads").get<int>());
+  }
+  if (threads.empty()) return "";
+  return fmt::format(" Trackers ran on {} thread{}.", fmt::join(threads, " or "),
+                     threads == std::set{1} ? "" : "s");
+}
+
 std::string CalibrationText(const ReportedExperiment& experiment) {
   std::vector<double> ms;
   for (const RunRecord* run : experiment.finished()) {
     if (!std::isnan(CalibrationOf(*run))) ms.push_back(CalibrationOf(*run));
   }
-  if (ms.empty()) return "";
-  return fmt::format(
-      " The calibration kernel took {:.2f} ms beside these runs (median): times of another machine "
-      "compare as multiples of its own.",
-      Quantile(ms, 0.5));
+  if (ms.empty()) return ThreadsText(experiment);
+  return ThreadsText(experiment) + fmt::format(
+                                       " The calibration kernel took {:.2f} ms beside these runs "
+                                       "(median): times of another machine "
+                                       "compare as multiples of its own.",
+                                       Quantile(ms, 0.5));
 }
 
 // The scenes that have a panel each, for times of different cameras and bodies do not mix; or, of
@@ -168,7 +180,7 @@ std::vector<Reference> PublishedReferences(const ExperimentRecord& experiment,
     references.push_back(
         {fmt::format("{}: {:g}{}{}{}", e.source, published, metric.unit.empty() ? "" : " ",
                      metric.unit, e.not_comparable.empty() ? "" : ", not comparable"),
-         published});
+         published, e.not_comparable.empty()});
   }
   return references;
 }
@@ -190,6 +202,9 @@ Figure MakeSpeedFigure(const ReportedExperiment& experiment) {
   for (const std::string& scene : scenes) {
     figure.panels.push_back(SpeedPanel(experiment, scene, error_metric));
   }
+  figure.columns = 2;
+  for (const Contender& contender : ContendersOf(experiment))
+    AddRuns(contender.name, contender.runs, figure);
   return figure;
 }
 

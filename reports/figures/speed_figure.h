@@ -13,6 +13,10 @@ namespace vitruvia {
 // the others rings.
 Figure MakeSpeedFigure(const ReportedExperiment& experiment);
 
+// What stands for a variant's error: the first metric of Place::kSpeedPlot that some run has; the
+// first of all if no run has any.
+Metric ErrorMetricOf(const ReportedExperiment& experiment);
+
 // The values that papers publish of a metric, in its unit, as lines across a plot.
 std::vector<Reference> PublishedReferences(const ExperimentRecord& experiment,
                                            const Metric& metric);

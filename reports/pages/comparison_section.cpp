@@ -10,21 +10,8 @@
 namespace vitruvia {
 namespace {
 
-std::string SpreadText(const SampleSpread& spread, const Metric& metric) {
-  std::string text = Printed(spread.mean, metric);
-  if (!std::isnan(spread.deviation)) text += " ± " + Printed(spread.deviation, metric);
-  return text;
-}
-
 bool HasInterval(const VariantComparison& row) {  // a single pair has none
   return !std::isinf(row.comparison.interval.low);
-}
-
-std::string IntervalText(const VariantComparison& row) {
-  const Interval& interval = row.comparison.interval;
-  if (!HasInterval(row)) return "–";
-  return fmt::format("{} … {}", PrintedSigned(interval.low, row.metric),
-                     PrintedSigned(interval.high, row.metric));
 }
 
 const char* VerdictClass(const std::string& verdict) {
@@ -47,10 +34,11 @@ std::string VariantRow(const VariantComparison& row) {
       "<tr><td class=\"run\">{}</td><td class=\"n\" data-label=\"mean ± spread\">{}</td>"
       "<td class=\"n\" data-label=\"difference\">{} <span class=\"soft\">({})</span></td>"
       "<td class=\"n\" data-label=\"95 % interval\">{}</td>"
-      "<td class=\"n\" data-label=\"pairs\">{}{}</td><td class=\"{}\">{}</td></tr>\n",
+      "<td class=\"n\" data-label=\"pairs\">{} <span class=\"soft\">({})</span>{}</td>"
+      "<td class=\"{}\">{}</td></tr>\n",
       Escaped(row.other), SpreadText(row.other_spread, row.metric),
       PrintedSigned(row.comparison.difference.mean, row.metric), RelativeText(row),
-      IntervalText(row), pairs,
+      IntervalText(row), pairs, UnitsText(row.comparison),
       row.unpaired == 0 ? "" : fmt::format(" <span class=\"soft\">+ {} alone</span>", row.unpaired),
       VerdictClass(verdict), verdict);
 }
@@ -69,6 +57,14 @@ std::string SummaryOf(const VariantSummary::Cell& cell, const Metric& metric) {
                      Escaped(Titled(metric)), cell.spread.mean, text);
 }
 
+std::size_t ComparisonsIn(const VariantTable& table) {
+  std::size_t count = 0;
+  for (const VariantSummary& row : table.rows) {
+    for (const VariantSummary::Cell& cell : row.cells) count += cell.difference ? 1 : 0;
+  }
+  return count;
+}
+
 }  // namespace
 
 std::string VariantSection(const ReportedExperiment& experiment) {
@@ -76,13 +72,13 @@ std::string VariantSection(const ReportedExperiment& experiment) {
   if (table.rows.size() < 2) return "";
   std::string html = fmt::format(
       "<section id=\"summary\"><h2>{} variants, {} runs</h2>\n<p>Mean over all scenes, seeds and "
-      "repeats ± standard deviation over the runs; below it the mean difference to <b>{}</b>, "
-      "paired by scene and seed, with its {:.0f} % bootstrap interval. Green is better, red worse; "
-      "neither where the interval holds zero or there are too few pairs.</p><div class=\"scroll\">"
+      "repeats ± standard deviation over the runs; below it the mean difference to <b>{}</b> with "
+      "its interval. {} Green is better, red worse; neither where no difference is shown.</p><div "
+      "class=\"scroll\">"
       "<table class=\"sortable variants\"><thead><tr><th><button type=\"button\">variant</button>"
       "</th><th><button type=\"button\">runs</button></th>",
-      table.rows.size(), experiment.finished().size(), Escaped(table.rows.front().name),
-      1e2 * BootstrapSettings{}.confidence);
+      table.rows.size(), experiment.finished().size(), Escaped(table.reference),
+      MethodText(ComparisonsIn(table)));
   for (const Metric& metric : table.metrics)
     html += fmt::format("<th class=\"n\"><button type=\"button\">{}</button></th>",
                         Escaped(Titled(metric)));
@@ -104,14 +100,13 @@ std::string ComparisonSection(const ReportedExperiment& experiment) {
   const std::vector<VariantComparison> rows = CompareVariants(experiment, "", {});
   if (rows.empty()) return "";
   std::string html = fmt::format(
-      "<section id=\"variants\"><h2>Variants against {}</h2>\n<p>Paired by scene and seed: mean ± "
-      "standard deviation over the pairs, the mean difference and its {:.0f} % bootstrap interval. "
-      "A difference is called one only if the interval excludes zero and there are at least {} "
-      "pairs.</p><div class=\"scroll\"><table class=\"compare\"><thead><tr><th>variant</th>"
+      "<section id=\"variants\"><h2>Variants against {}</h2>\n<p>Mean ± standard deviation over "
+      "the "
+      "pairs, the mean difference and its interval. {}</p><div class=\"scroll\"><table "
+      "class=\"compare\"><thead><tr><th>variant</th>"
       "<th class=\"n\">mean ± spread</th><th class=\"n\">difference</th><th class=\"n\">interval"
       "</th><th class=\"n\">pairs</th><th></th></tr></thead><tbody>\n",
-      Escaped(rows.front().reference), 1e2 * BootstrapSettings{}.confidence,
-      FewestPairs(BootstrapSettings{}.confidence));
+      Escaped(rows.front().reference), MethodText(rows.size()));
   std::string metric;
   for (const VariantComparison& row : rows) {
     if (row.metric.key != metric) html += GroupRow(row);

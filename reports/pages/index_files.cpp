@@ -56,14 +56,14 @@ IndexedExperiment ReadIndexed(const fs::path& folder, const fs::path& top) {
   return indexed;
 }
 
-IndexedGate ReadGate(const fs::path& folder, const fs::path& top, DrawingWriter& writer) {
+IndexedGate ReadGate(const fs::path& folder, const fs::path& top) {
   const auto file = ReadStored<RegressionFile>(folder / "regression.json");
   return {file.name,
           file.verdict,
           file.date,
           file.commit,
           (folder / "regression.md").lexically_relative(top).generic_string(),
-          DrawFigures(writer, MakeHistoryFigures(ReadHistory(folder / "history.json")), folder)};
+          DrawFigures(MakeHistoryFigures(ReadHistory(folder / "history.json")), folder)};
 }
 
 }  // namespace
@@ -85,11 +85,8 @@ fs::path WriteIndex(const fs::path& folder) {
       content.experiments.push_back(ReadIndexed(place, folder));
     });
   }
-  DrawingWriter writer;
   for (const fs::path& gate : found.gates) {
-    reading(gate, [&](const fs::path& place) {
-      content.gates.push_back(ReadGate(place, folder, writer));
-    });
+    reading(gate, [&](const fs::path& place) { content.gates.push_back(ReadGate(place, folder)); });
   }
   if (content.experiments.empty() && content.gates.empty() && content.problems.empty())
     throw DataError(fmt::format("{}: holds no experiment", folder.string()));

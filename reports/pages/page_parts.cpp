@@ -9,12 +9,12 @@
 namespace vitruvia {
 namespace fs = std::filesystem;
 
-std::vector<DrawnFigure> DrawFigures(DrawingWriter& writer, const std::vector<Figure>& figures,
-                                     const fs::path& folder) {
+std::vector<DrawnFigure> DrawFigures(const std::vector<Figure>& figures, const fs::path& folder) {
   std::vector<DrawnFigure> drawn;
+  const DrawingWriter writer;
   for (const Figure& figure : figures) {
     const fs::path stem = folder / figure.name;
-    writer.Write(stem, kFigureWidth, FigureHeight(figure),
+    writer.Write(stem, FigureStyle{}.width, FigureHeight(figure),
                  [&](Canvas& canvas) { DrawFigure(canvas, figure); });
     drawn.push_back(
         {figure.name, figure.title, figure.caption, ReadWholeFile(fs::path(stem).concat(".svg"))});

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/drawing/drawing_writer.h"
 #include "reports/drawing/plot.h"
 
 namespace vitruvia {
@@ -15,7 +16,7 @@ struct DrawnFigure {
 };
 
 // Writes each figure to `folder`, as PNG and SVG under its name.
-std::vector<DrawnFigure> DrawFigures(DrawingWriter& writer, const std::vector<Figure>& figures,
+std::vector<DrawnFigure> DrawFigures(const std::vector<Figure>& figures,
                                      const std::filesystem::path& folder);
 
 // A whole HTML page that needs no other file; `body` is HTML, `title` plain text.

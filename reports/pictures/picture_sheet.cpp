@@ -1,5 +1,6 @@
 // All strips of a run on one sheet.
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -9,100 +10,208 @@
 namespace vitruvia {
 namespace {
 
-constexpr int kCell = 210, kCellGap = 6, kNarrowestMargin = 78, kHeader = 50, kFooter = 70;
-constexpr double kLetterWidth = 7.0;  // of a row's label
-constexpr int kBarWidth = 3 * kCell / 2, kBarHeight = 12, kBarSteps = 60;
+// Lengths in units of the usual style; a style with other text scales them all.
+constexpr double kUsualText = 12.0, kUsualCell = 210.0;
+constexpr double kCellGap = 6.0, kEdge = 8.0, kTextLine = 18.0;
+constexpr double kBarWidth = 250.0, kBarHeight = 12.0, kLegendGap = 36.0, kLegendHeight = 52.0;
+constexpr double kWidestLabels = 0.3;  // as a share of a sheet of fixed width
+constexpr int kBarSteps = 60;
 
-// Room for the rows' labels.
-int MarginLeft(const RunPictures& run) {
-  std::size_t letters = 0;
-  for (const PictureStrip& strip : run.strips) {
-    letters = std::max({letters, strip.label.size(), strip.sublabel.size()});
-  }
-  return std::max(kNarrowestMargin,
-                  static_cast<int>(kLetterWidth * static_cast<double>(letters)) + 16);
+// A title's two parts: what is shown, and from where.
+std::pair<std::string, std::string> TitleParts(const std::string& title) {
+  const std::size_t comma = title.find(", ");
+  if (comma == std::string::npos) return {title, ""};
+  return {title.substr(0, comma), title.substr(comma + 2)};
 }
 
-int SheetWidth(const RunPictures& run) {
-  return MarginLeft(run) + static_cast<int>(run.titles.size()) * (kCell + kCellGap);
-}
-
-void DrawColorBar(Canvas& canvas, Point top_left, Color (*color_of)(double),
-                  const std::string& label, const std::vector<std::string>& ticks) {
-  for (int i = 0; i < kBarSteps; ++i) {
-    const double width = static_cast<double>(kBarWidth) / kBarSteps;
-    canvas.Rectangle({top_left.x + i * width, top_left.y}, width + 0.5, kBarHeight,
-                     color_of((i + 0.5) / kBarSteps));
-  }
-  for (std::size_t i = 0; i < ticks.size(); ++i) {
-    const double x =
-        top_left.x + kBarWidth * static_cast<double>(i) / static_cast<double>(ticks.size() - 1);
-    canvas.Text({x, top_left.y + kBarHeight + 4.0}, ticks[i],
-                {.size = 12.0, .anchor = Anchor::kMiddle, .baseline = Baseline::kTop});
-  }
-  canvas.Text({top_left.x, top_left.y - 5.0}, label, {.size = 12.0, .baseline = Baseline::kBottom});
-}
-
-// What plain colours mean, a line each.
-void DrawKeys(Canvas& canvas, Point top_left, const std::vector<ColorKey>& keys) {
-  constexpr double kLine = 20.0;
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    const double y = top_left.y + static_cast<double>(i) * kLine;
-    canvas.Rectangle({top_left.x, y}, kBarHeight, kBarHeight, keys[i].color);
-    canvas.Text({top_left.x + kBarHeight + 8.0, y + 0.5 * kBarHeight}, keys[i].meaning,
-                {.size = 12.0});
+void DrawTextLines(Canvas& canvas, Point at, const std::vector<std::string>& lines,
+                   const TextStyle& style, double distance) {
+  for (const std::string& line : lines) {
+    canvas.Text(at, line, style);
+    at.y += distance;
   }
 }
 
-// Titles in two lines: what is shown, and from where.
-void DrawTitles(Canvas& canvas, const RunPictures& run) {
-  const int margin_left = MarginLeft(run);
-  for (std::size_t i = 0; i < run.titles.size(); ++i) {
-    const std::string& title = run.titles[i];
-    const std::size_t comma = title.find(", ");
-    const double x = margin_left + static_cast<double>(i) * (kCell + kCellGap) + 0.5 * kCell;
-    canvas.Text({x, 16.0}, title.substr(0, comma),
-                {.size = 14.0, .anchor = Anchor::kMiddle, .bold = true});
-    if (comma == std::string::npos) continue;
-    canvas.Text({x, 36.0}, title.substr(comma + 2), {.size = 12.0, .anchor = Anchor::kMiddle});
+struct ColorBar {
+  std::string label;
+  Color (*color_of)(double);
+  std::vector<std::string> ticks;  // evenly spaced
+};
+
+// What the colours mean: bars, and plain colours with a line each.
+struct LegendBox {
+  double width = 0.0, height = 0.0;
+  std::vector<ColorBar> bar;  // one or none
+  std::vector<ColorKey> keys;
+  Point top_left{};
+};
+
+class Sheet {
+ public:
+  Sheet(const RunPictures& run, const SheetStyle& style)
+      : run_(run), u_(style.text_size / kUsualText), text_{.size = style.text_size} {
+    bold_ = text_;
+    bold_.bold = true;
+    FindColumns(style.width);
+    for (const std::string& title : run_.titles) {
+      const auto [what, where] = TitleParts(title);
+      const std::size_t lines =
+          WrappedText(what, cell_, bold_).size() + WrappedText(where, cell_, text_).size();
+      header_ = std::max(header_, (static_cast<double>(lines) * kTextLine + 10.0) * u_);
+    }
+    legend_top_ = header_ + static_cast<double>(run_.strips.size()) * (cell_ + gap());
+    PlaceLegend();
   }
-}
+
+  double width() const { return std::ceil(width_); }
+  double height() const { return std::ceil(height_); }
+
+  void Draw(Canvas& canvas) const {
+    for (std::size_t i = 0; i < run_.titles.size(); ++i) DrawTitle(canvas, i);
+    for (std::size_t row = 0; row < run_.strips.size(); ++row) DrawRow(canvas, row);
+    for (const LegendBox& box : legend_) DrawBox(canvas, box);
+  }
+
+ private:
+  double gap() const { return kCellGap * u_; }
+  double X(std::size_t column) const {
+    return margin_ + static_cast<double>(column) * (cell_ + gap());
+  }
+
+  void FindColumns(const std::optional<double>& width) {
+    double labels = 0.0;
+    for (const PictureStrip& strip : run_.strips)
+      labels = std::max({labels, TextWidth(strip.label, bold_), TextWidth(strip.sublabel, text_)});
+    const double columns = static_cast<double>(run_.titles.size());
+    margin_ = labels + 2.0 * kEdge * u_;
+    if (width) margin_ = std::min(margin_, kWidestLabels * *width);
+    cell_ = width ? (*width - margin_) / columns - gap() : kUsualCell * u_;
+    width_ = margin_ + columns * (cell_ + gap());
+    // A sheet of one column still has room for its legend.
+    if (!width) width_ = std::max(width_, margin_ + WidestBox() + 2.0 * kEdge * u_);
+  }
+
+  std::vector<LegendBox> Boxes() const {
+    std::vector<LegendBox> boxes;
+    const double bar = (kBarWidth + 16.0) * u_;
+    if (run_.farthest_m > 0.0) {
+      const ColorBar depth{"depth (m)",
+                           DepthColor,
+                           {fmt::format("{:.1f}", run_.nearest_m),
+                            fmt::format("{:.2f}", 0.5 * (run_.nearest_m + run_.farthest_m)),
+                            fmt::format("{:.1f}", run_.farthest_m)}};
+      boxes.push_back({bar, kLegendHeight * u_, {depth}, {}});
+    }
+    if (run_.error_scale_m > 0.0) {
+      const ColorBar error{"error (mm)",
+                           ErrorColor,
+                           {"0", fmt::format("{:g}", 500.0 * run_.error_scale_m),
+                            fmt::format("≥ {:g}", 1000.0 * run_.error_scale_m)}};
+      boxes.push_back({bar, kLegendHeight * u_, {error}, {}});
+    }
+    if (!run_.keys.empty()) {
+      LegendBox keys{
+          0.0, static_cast<double>(run_.keys.size()) * kTextLine * u_ + 12.0 * u_, {}, run_.keys};
+      for (const ColorKey& key : run_.keys)
+        keys.width = std::max(keys.width, TextWidth(key.meaning, text_) + (kBarHeight + 8.0) * u_);
+      boxes.push_back(keys);
+    }
+    return boxes;
+  }
+  double WidestBox() const {
+    double widest = 0.0;
+    for (const LegendBox& box : Boxes()) widest = std::max(widest, box.width);
+    return widest;
+  }
+
+  // From left to right, in as many rows as they need.
+  void PlaceLegend() {
+    const double left = std::min(margin_ + 10.0 * u_, std::max(width_ - WidestBox(), kEdge * u_));
+    double x = left, y = legend_top_ + 10.0 * u_, row_height = 0.0;
+    for (LegendBox box : Boxes()) {
+      if (x > left && x + box.width > width_) {
+        x = left;
+        y += row_height;
+        row_height = 0.0;
+      }
+      box.top_left = {x, y};
+      x += box.width + kLegendGap * u_;
+      row_height = std::max(row_height, box.height);
+      legend_.push_back(box);
+    }
+    height_ = y + row_height + kEdge * u_;
+  }
+
+  void DrawTitle(Canvas& canvas, std::size_t column) const {
+    const auto [what, where] = TitleParts(run_.titles[column]);
+    const auto what_lines = WrappedText(what, cell_, bold_);
+    TextStyle bold = bold_, plain = text_;
+    bold.anchor = plain.anchor = Anchor::kMiddle;
+    const double x = X(column) + 0.5 * cell_, line = kTextLine * u_;
+    DrawTextLines(canvas, {x, 0.8 * line}, what_lines, bold, line);
+    DrawTextLines(canvas, {x, (0.8 + static_cast<double>(what_lines.size())) * line},
+                  WrappedText(where, cell_, text_), plain, line);
+  }
+
+  void DrawRow(Canvas& canvas, std::size_t row) const {
+    const PictureStrip& strip = run_.strips[row];
+    const double top = header_ + static_cast<double>(row) * (cell_ + gap());
+    const double room = margin_ - 1.5 * kEdge * u_, line = kTextLine * u_;
+    const auto label = WrappedText(strip.label, room, bold_);
+    const auto sublabel = WrappedText(strip.sublabel, room, text_);
+    const double lines = static_cast<double>(label.size() + sublabel.size());
+    const double first = top + 0.5 * cell_ - 0.5 * (lines - 1.0) * line;
+    DrawTextLines(canvas, {kEdge * u_, first}, label, bold_, line);
+    DrawTextLines(canvas, {kEdge * u_, first + static_cast<double>(label.size()) * line}, sublabel,
+                  text_, line);
+    for (std::size_t i = 0; i < strip.pictures.size(); ++i)
+      canvas.Picture({X(i), top}, cell_, cell_, strip.pictures[i]);
+  }
+
+  void DrawBox(Canvas& canvas, const LegendBox& box) const {
+    for (const ColorBar& bar : box.bar) DrawBar(canvas, box.top_left, bar);
+    for (std::size_t i = 0; i < box.keys.size(); ++i) {
+      const double y = box.top_left.y + (static_cast<double>(i) * kTextLine + 6.0) * u_;
+      const double side = kBarHeight * u_;
+      canvas.Rectangle({box.top_left.x, y}, side, side, box.keys[i].color);
+      canvas.Text({box.top_left.x + side + 8.0 * u_, y + 0.5 * side}, box.keys[i].meaning, text_);
+    }
+  }
+
+  void DrawBar(Canvas& canvas, Point top_left, const ColorBar& bar) const {
+    TextStyle style = text_;
+    style.baseline = Baseline::kTop;
+    canvas.Text(top_left, bar.label, style);
+    const double top = top_left.y + kTextLine * u_;
+    for (int i = 0; i < kBarSteps; ++i) {
+      const double width = kBarWidth * u_ / kBarSteps;
+      canvas.Rectangle({top_left.x + i * width, top}, width + 0.5 * u_, kBarHeight * u_,
+                       bar.color_of((i + 0.5) / kBarSteps));
+    }
+    for (std::size_t i = 0; i < bar.ticks.size(); ++i) {
+      const double share = static_cast<double>(i) / static_cast<double>(bar.ticks.size() - 1);
+      style.anchor = i == 0                     ? Anchor::kStart
+                     : i + 1 < bar.ticks.size() ? Anchor::kMiddle
+                                                : Anchor::kEnd;
+      canvas.Text({top_left.x + kBarWidth * u_ * share, top + (kBarHeight + 3.0) * u_},
+                  bar.ticks[i], style);
+    }
+  }
+
+  const RunPictures& run_;
+  double u_;
+  TextStyle text_, bold_;
+  double margin_ = 0.0, cell_ = 0.0, width_ = 0.0, height_ = 0.0;
+  double header_ = 0.0, legend_top_ = 0.0;
+  std::vector<LegendBox> legend_;
+};
 
 }  // namespace
 
-void WritePictureSheet(DrawingWriter& writer, const std::filesystem::path& stem,
-                       const RunPictures& run) {
-  const int rows = static_cast<int>(run.strips.size());
-  const int margin_left = MarginLeft(run);
-  const int height = kHeader + rows * (kCell + kCellGap) + kFooter;
-  writer.Write(stem, SheetWidth(run), height, [&](Canvas& canvas) {
-    DrawTitles(canvas, run);
-    for (int row = 0; row < rows; ++row) {
-      const PictureStrip& strip = run.strips[static_cast<std::size_t>(row)];
-      const double top = kHeader + row * (kCell + kCellGap);
-      canvas.Text({8.0, top + 0.5 * kCell - 9.0}, strip.label, {.size = 12.0, .bold = true});
-      canvas.Text({8.0, top + 0.5 * kCell + 9.0}, strip.sublabel, {.size = 12.0});
-      for (std::size_t i = 0; i < strip.pictures.size(); ++i) {
-        canvas.Picture({margin_left + static_cast<double>(i) * (kCell + kCellGap), top}, kCell,
-                       kCell, strip.pictures[i]);
-      }
-    }
-    const double bar_top = height - kFooter + 28.0;
-    if (run.farthest_m > 0.0) {
-      DrawColorBar(canvas, {margin_left + 10.0, bar_top}, DepthColor, "depth (m)",
-                   {fmt::format("{:.1f}", run.nearest_m),
-                    fmt::format("{:.2f}", 0.5 * (run.nearest_m + run.farthest_m)),
-                    fmt::format("{:.1f}", run.farthest_m)});
-    }
-    // Beside the bar of the depth, which is not two pictures wide.
-    DrawKeys(canvas, {margin_left + 2.0 * (kCell + kCellGap) + 10.0, bar_top - 8.0}, run.keys);
-    if (run.error_scale_m == 0.0) return;
-    const double error_column = static_cast<double>(run.titles.size()) - 2.0;
-    DrawColorBar(canvas, {margin_left + error_column * (kCell + kCellGap) + 10.0, bar_top},
-                 ErrorColor, "error (mm)",
-                 {"0", fmt::format("{:g}", 500.0 * run.error_scale_m),
-                  fmt::format("≥ {:g}", 1000.0 * run.error_scale_m)});
-  });
+void WritePictureSheet(const DrawingWriter& writer, const std::filesystem::path& stem,
+                       const RunPictures& run, const SheetStyle& style) {
+  const Sheet sheet(run, style);
+  writer.Write(stem, sheet.width(), sheet.height(), [&](Canvas& canvas) { sheet.Draw(canvas); });
 }
 
 }  // namespace vitruvia

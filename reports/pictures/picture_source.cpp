@@ -7,6 +7,17 @@
 namespace vitruvia {
 namespace fs = std::filesystem;
 
+std::vector<int> FramesToShow(const std::vector<int>& asked, int count) {
+  constexpr int kSpread = 4;
+  std::vector<int> frames = asked;
+  if (asked.empty()) {
+    for (int i = 0; i < std::min(kSpread, count); ++i)
+      frames.push_back(i * (count - 1) / std::max(std::min(kSpread, count) - 1, 1));
+  }
+  std::erase_if(frames, [count](int frame) { return frame < 0 || frame >= count; });
+  return frames;
+}
+
 PictureSource::PictureSource(const fs::path& experiment_folder, const RunRecord& run,
                              const std::vector<int>& frames)
     : sequence_((experiment_folder / run.sequence_folder).lexically_normal()),
@@ -14,8 +25,7 @@ PictureSource::PictureSource(const fs::path& experiment_folder, const RunRecord&
   std::optional<RestCorrespondence> correspondence;
   if (has_truth()) correspondence.emplace(estimate_.rest_mesh(), sequence_.true_rest_mesh());
   const int count = std::min(sequence_.info().frames, static_cast<int>(estimate_.frames().size()));
-  for (const int frame : frames) {
-    if (frame < 0 || frame >= count) continue;
+  for (const int frame : FramesToShow(frames, count)) {
     PictureFrame& shown = frames_.emplace_back();
     shown.number = frame;
     if (!correspondence) continue;

@@ -20,9 +20,13 @@ struct PictureFrame {
   std::vector<bool> in_view;  // whether the camera has it in its image
 };
 
+// The frames that pictures are taken of, of a run of that length: those asked for that it has, or,
+// where none are asked for, four from the first to the last.
+std::vector<int> FramesToShow(const std::vector<int>& asked, int count);
+
 class PictureSource {
  public:
-  // Of those frames the ones that the run has. DataError if stored data is gone or damaged.
+  // Of the frames to show. DataError if stored data is gone or damaged.
   PictureSource(const std::filesystem::path& experiment_folder, const RunRecord& run,
                 const std::vector<int>& frames);
 

@@ -11,8 +11,10 @@
 #include "core/progress.h"
 #include "math/rigid.h"
 #include "math/rotation.h"
+#include "math/statistics.h"
 #include "records/bone_tree.h"
 #include "records/surface_strips.h"
+#include "reports/drawing/axis.h"
 #include "reports/drawing/color_maps.h"
 #include "reports/drawing/mesh_view.h"
 #include "reports/pictures/picture_source.h"
@@ -29,17 +31,25 @@ constexpr double kSmallestErrorScale_m = 0.01;
 
 // Of what the camera has in its image: a limb out of view may be anywhere, and would leave no
 // colours for the rest.
-double ErrorScale(const std::vector<std::unique_ptr<PictureSource>>& sources) {
-  std::vector<double> all;
-  for (const auto& source : sources) {
-    if (source == nullptr) continue;
-    for (const PictureFrame& frame : source->frames()) {
-      for (std::size_t i = 0; i < frame.errors_m.size(); ++i) {
-        if (frame.in_view[i]) all.push_back(frame.errors_m[i]);
-      }
+std::vector<double> ErrorsInView(const PictureSource& source) {
+  std::vector<double> errors_m;
+  for (const PictureFrame& frame : source.frames()) {
+    for (std::size_t i = 0; i < frame.errors_m.size(); ++i) {
+      if (frame.in_view[i]) errors_m.push_back(frame.errors_m[i]);
     }
   }
-  return ErrorScaleEnd(std::move(all), kSmallestErrorScale_m);
+  return errors_m;
+}
+
+// The end of the middle run's own scale: a run that went astray must not leave the others pale.
+double ErrorScale(const std::vector<std::unique_ptr<PictureSource>>& sources) {
+  std::vector<double> ends_m;
+  for (const auto& source : sources) {
+    if (source != nullptr && source->has_truth())
+      ends_m.push_back(ErrorScaleEnd(ErrorsInView(*source), kSmallestErrorScale_m));
+  }
+  if (ends_m.empty()) return kSmallestErrorScale_m;
+  return RoundedUp(Quantile(ends_m, 0.5));
 }
 
 // Turns the body about the camera's vertical through its middle, which shows it as a camera would

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/experiment_runs.h"
-#include "reports/drawing/canvas.h"
+#include "reports/drawing/drawing_writer.h"
 
 namespace vitruvia {
 
@@ -45,8 +46,13 @@ std::vector<std::string> PictureTitlesWithoutTruth();
 // both surfaces share. All runs share one scale of errors, so that their colours compare.
 std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment);
 
-// Writes all strips of a run with their titles and colour bars to `stem`.png and `stem`.svg.
-void WritePictureSheet(DrawingWriter& writer, const std::filesystem::path& stem,
-                       const RunPictures& pictures);
+struct SheetStyle {
+  double text_size = 12.0;      // page units
+  std::optional<double> width;  // of the sheet; without it pictures have their usual size
+};
+
+// Writes all strips of a run with their titles, keys and colour bars to one drawing.
+void WritePictureSheet(const DrawingWriter& writer, const std::filesystem::path& stem,
+                       const RunPictures& pictures, const SheetStyle& style = {});
 
 }  // namespace vitruvia

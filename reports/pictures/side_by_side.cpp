@@ -11,6 +11,7 @@
 #include "records/estimate.h"
 #include "records/metric_value.h"
 #include "reports/drawing/color_maps.h"
+#include "reports/pictures/picture_source.h"
 #include "reports/pictures/picture_window.h"
 #include "sequence/sequence.h"
 
@@ -76,8 +77,7 @@ class RowPainter {
   RowPainter(const SequenceReader& sequence, const std::vector<int>& frames, MeshView& view)
       : sequence_(sequence), view_(view), camera_(sequence.info().camera) {
     double extent_m = 0.0;
-    for (const int frame : frames) {
-      if (frame < 0 || frame >= sequence.info().frames) continue;
+    for (const int frame : FramesToShow(frames, sequence.info().frames)) {
       Shown& shown = frames_.emplace_back();
       shown.frame = frame;
       shown.truth = sequence.ReadTrueVertices(frame);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/non_central_t.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numbers>
@@ -21,25 +22,73 @@ double ExpandedTail(double confidence, std::size_t count) {
   return 0.5 * std::erfc(std::sqrt(n / (n - 1.0)) * t / std::numbers::sqrt2);
 }
 
-std::vector<double> ResampledMeans(std::span<const double> values,
-                                   const BootstrapSettings& settings) {
+// Means of samples that `draw` makes, in order of size.
+template <class Draw>
+std::vector<double> ResampledMeans(const BootstrapSettings& settings, Draw draw) {
+  Require(settings.resamples >= 1, "bootstrap of {} resamples", settings.resamples);
   RandomStream random(settings.seed, "bootstrap");
   std::vector<double> means;
   means.reserve(settings.resamples);
-  for (int r = 0; r < settings.resamples; ++r) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < values.size(); ++i) sum += values[random.Index(values.size())];
-    means.push_back(sum / static_cast<double>(values.size()));
-  }
+  for (int r = 0; r < settings.resamples; ++r) means.push_back(draw(random));
   std::sort(means.begin(), means.end());
   return means;
 }
 
+double SumOfDrawn(std::span<const double> values, RandomStream& random) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) sum += values[random.Index(values.size())];
+  return sum;
+}
+
+double MeanOfDrawnGroups(const Groups& groups, RandomStream& random) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const std::vector<double>& group = groups[random.Index(groups.size())];
+    sum += SumOfDrawn(group, random);
+    count += group.size();
+  }
+  return sum / static_cast<double>(count);
+}
+
+// Cut off so far outside that the interval is as wide as Student's of that many units.
+Interval ExpandedInterval(const std::vector<double>& means, std::size_t units, double confidence) {
+  const double tail = ExpandedTail(confidence, units);
+  return {Quantile(means, tail), Quantile(means, 1.0 - tail)};
+}
+
+std::vector<double> Joined(const Groups& groups) {
+  std::vector<double> all;
+  for (const std::vector<double>& group : groups) all.insert(all.end(), group.begin(), group.end());
+  return all;
+}
+
+std::vector<double> Units(const Groups& groups) {
+  if (groups.size() == 1) return groups.front();
+  std::vector<double> means;
+  for (const std::vector<double>& group : groups) means.push_back(Mean(group));
+  return means;
+}
+
+// Of Student's test of the mean against 0, two-sided.
+double PValue(const SampleSpread& spread) {
+  if (spread.count < 2 || spread.mean == 0.0) return 1.0;
+  if (spread.deviation == 0.0) return 0.0;
+  const double t = std::abs(spread.mean) / (spread.deviation / std::sqrt(spread.count));
+  const boost::math::students_t distribution(spread.count - 1);
+  return 2.0 * boost::math::cdf(boost::math::complement(distribution, t));
+}
+
+bool HasEnoughPairs(const PairedComparison& comparison, double confidence) {
+  return comparison.difference.count >= FewestPairs(confidence);
+}
+
 Difference VerdictOf(const PairedComparison& comparison, double confidence) {
-  if (comparison.difference.count < FewestPairs(confidence)) return Difference::kTooFewPairs;
+  if (!HasEnoughPairs(comparison, confidence)) return Difference::kTooFewPairs;
+  if (comparison.adjusted_p > 1.0 - confidence) return Difference::kNotShown;
   if (comparison.interval.high < 0.0) return Difference::kLower;
   if (comparison.interval.low > 0.0) return Difference::kHigher;
-  return Difference::kNone;
+  return Difference::kNotShown;
 }
 
 }  // namespace
@@ -65,16 +114,29 @@ double StudentQuantile(double confidence, int degrees_of_freedom) {
 
 Interval BootstrapMeanInterval(std::span<const double> values, const BootstrapSettings& settings) {
   Require(!values.empty(), "BootstrapMeanInterval of an empty sample");
-  Require(settings.resamples >= 1, "BootstrapMeanInterval: {} resamples", settings.resamples);
   if (values.size() == 1) {
     return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   }
   // Rounding of a mean must not make a difference of differences that are all the same.
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   if (*least == *most) return {*least, *most};
-  const std::vector<double> means = ResampledMeans(values, settings);
-  const double tail = ExpandedTail(settings.confidence, values.size());
-  return {Quantile(means, tail), Quantile(means, 1.0 - tail)};
+  const std::vector<double> means = ResampledMeans(settings, [&](RandomStream& random) {
+    return SumOfDrawn(values, random) / static_cast<double>(values.size());
+  });
+  return ExpandedInterval(means, values.size(), settings.confidence);
+}
+
+Interval GroupedMeanInterval(const Groups& groups, const BootstrapSettings& settings) {
+  Require(!groups.empty(), "GroupedMeanInterval of no group");
+  for (const std::vector<double>& group : groups)
+    Require(!group.empty(), "GroupedMeanInterval: a group of {} has no value", groups.size());
+  if (groups.size() == 1) return BootstrapMeanInterval(groups.front(), settings);
+  const std::vector<double> all = Joined(groups);
+  const auto [least, most] = std::minmax_element(all.begin(), all.end());
+  if (*least == *most) return {*least, *most};
+  const std::vector<double> means = ResampledMeans(
+      settings, [&](RandomStream& random) { return MeanOfDrawnGroups(groups, random); });
+  return ExpandedInterval(means, groups.size(), settings.confidence);
 }
 
 Interval MedianInterval(std::span<const double> values, double confidence) {
@@ -105,8 +167,8 @@ const char* Name(Difference difference) {
   switch (difference) {
     case Difference::kTooFewPairs:
       return "too few pairs";
-    case Difference::kNone:
-      return "no difference";
+    case Difference::kNotShown:
+      return "difference not shown";
     case Difference::kLower:
       return "lower";
     case Difference::kHigher:
@@ -115,17 +177,48 @@ const char* Name(Difference difference) {
   return "";
 }
 
-PairedComparison ComparePairs(std::span<const double> reference, std::span<const double> other,
-                              const BootstrapSettings& settings) {
-  Require(reference.size() == other.size() && !other.empty(),
-          "ComparePairs: {} reference values and {} others", reference.size(), other.size());
-  std::vector<double> differences;
-  for (std::size_t i = 0; i < other.size(); ++i) differences.push_back(other[i] - reference[i]);
+PairedComparison ComparePairs(const Groups& differences, const BootstrapSettings& settings) {
+  const std::vector<double> all = Joined(differences);
+  Require(!all.empty(), "ComparePairs of no pair");
   PairedComparison comparison;
-  comparison.difference = SpreadOf(differences);
-  comparison.interval = BootstrapMeanInterval(differences, settings);
+  comparison.difference = SpreadOf(all);
+  comparison.unit_difference = SpreadOf(Units(differences));
+  comparison.scenes = static_cast<int>(differences.size());
+  comparison.interval = GroupedMeanInterval(differences, settings);
+  comparison.p = comparison.adjusted_p = PValue(comparison.unit_difference);
   comparison.verdict = VerdictOf(comparison, settings.confidence);
   return comparison;
+}
+
+void AdjustByHolm(std::span<PairedComparison* const> comparisons, double confidence) {
+  std::vector<PairedComparison*> tested;
+  for (PairedComparison* comparison : comparisons) {
+    if (HasEnoughPairs(*comparison, confidence)) tested.push_back(comparison);
+  }
+  std::stable_sort(tested.begin(), tested.end(),
+                   [](const auto* a, const auto* b) { return a->p < b->p; });
+  double largest = 0.0;
+  for (std::size_t i = 0; i < tested.size(); ++i) {
+    largest = std::max(largest, tested[i]->p * static_cast<double>(tested.size() - i));
+    tested[i]->adjusted_p = std::min(largest, 1.0);
+    tested[i]->verdict = VerdictOf(*tested[i], confidence);
+  }
+}
+
+int UnitsToShow(double difference, double deviation, double confidence, double power) {
+  Require(difference > 0.0 && deviation > 0.0, "UnitsToShow: difference {}, deviation {}",
+          difference, deviation);
+  Require(power > 0.5 && power < 1.0, "UnitsToShow: power {}", power);
+  constexpr int kMost = 1'000'000;
+  const double effect = difference / deviation;
+  for (int n = 2; n < kMost; ++n) {
+    const boost::math::non_central_t other(n - 1, effect * std::sqrt(n));
+    if (boost::math::cdf(boost::math::complement(other, StudentQuantile(confidence, n - 1))) >=
+        power)
+      return n;
+    if (n > 200) n += n / 20;  // of many the last per cent does not matter
+  }
+  return kMost;
 }
 
 }  // namespace vitruvia

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <vector>
 
 namespace vitruvia {
 
@@ -36,6 +37,14 @@ struct Interval {
 // std::invalid_argument on an empty sample or settings out of range.
 Interval BootstrapMeanInterval(std::span<const double> values, const BootstrapSettings& settings);
 
+// Values in groups that are independent of each other: one for each scene, of its seeds.
+using Groups = std::vector<std::vector<double>>;
+
+// Of the mean of what the groups were drawn from: groups are drawn anew, then values within each.
+// As wide as Student's interval of that many groups (see above). Of a single group, that of its
+// values. std::invalid_argument if a group is empty or there is none.
+Interval GroupedMeanInterval(const Groups& groups, const BootstrapSettings& settings);
+
 // Of the median of what the values were drawn from, whatever their distribution: the sign test's
 // interval, from an order statistic to its mirror image, the narrowest that holds the median with
 // at least this probability. One value far off does not move it. [−∞, ∞] of fewer values than
@@ -46,18 +55,34 @@ Interval MedianInterval(std::span<const double> values, double confidence);
 // than in 1 − confidence of all cases (a sign test's 2^(1 − n)), so none is called one: 6 at 95 %.
 int FewestPairs(double confidence);
 
-enum class Difference { kTooFewPairs, kNone, kLower, kHigher };
+enum class Difference { kTooFewPairs, kNotShown, kLower, kHigher };
 const char* Name(Difference difference);
 
 struct PairedComparison {
-  SampleSpread difference;                        // other − reference, over the pairs
-  Interval interval;                              // of its mean
+  SampleSpread difference;  // other − reference, over the pairs
+  // Of the independent units: means of scenes, or, of a single scene, its pairs.
+  SampleSpread unit_difference;
+  int scenes = 0;
+  Interval interval;  // of the mean difference
+  // That units whose mean difference is 0 differ by so much (Student's t); of one unit 1.
+  double p = 1.0;
+  double adjusted_p = 1.0;                        // see AdjustByHolm
   Difference verdict = Difference::kTooFewPairs;  // of the other against the reference
 };
 
-// reference[i] and other[i] are one pair: the same scene and seed. A difference is called one only
-// if its interval excludes zero. std::invalid_argument unless both have one, positive, length.
-PairedComparison ComparePairs(std::span<const double> reference, std::span<const double> other,
-                              const BootstrapSettings& settings = {});
+// `differences` of pairs, other − reference, grouped by scene: six pairs from two scenes are not
+// six independent ones. A difference is called one only if its interval excludes zero, adjusted_p
+// is at most 1 − confidence and there are FewestPairs. std::invalid_argument if there is none.
+PairedComparison ComparePairs(const Groups& differences, const BootstrapSettings& settings = {});
+
+// Holm's correction (1979) for comparisons that are made together: with it, the probability that
+// any difference is called one by chance is at most 1 − confidence. Sets adjusted_p and the
+// verdicts; comparisons of too few pairs do not count.
+void AdjustByHolm(std::span<PairedComparison* const> comparisons, double confidence);
+
+// How many independent units it takes to show a difference of that size with this probability, if
+// units differ by `deviation` (normal; Student's test). At least 2; std::invalid_argument unless
+// difference and deviation are positive.
+int UnitsToShow(double difference, double deviation, double confidence, double power);
 
 }  // namespace vitruvia

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "analysis/tables.h"
+#include "analysis/variant_comparison.h"
 #include "records/metric_value.h"
 
 namespace vitruvia {
@@ -27,34 +28,7 @@ std::string CsvCell(const nlohmann::json& cell) {
 
 std::string CsvStatus(const std::string& problem) { return problem.empty() ? "done" : problem; }
 
-std::string LatexEscaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (std::string_view("_%&#${}").find(c) != std::string_view::npos) {
-      escaped.append({'\\', c});
-    } else if (c == '\\') {
-      escaped.append("\\textbackslash{}");
-    } else if (c == '~') {
-      escaped.append("\\textasciitilde{}");
-    } else if (c == '^') {
-      escaped.append("\\textasciicircum{}");
-    } else {
-      escaped.push_back(c == '\n' ? ' ' : c);
-    }
-  }
-  return escaped;
-}
-
-// Typographic signs as LaTeX's default encodings know them.
-std::string LatexNumber(const std::string& printed) {
-  if (printed == kNoNumber) return "--";
-  const std::string minus = "−";
-  const std::size_t at = printed.find(minus);
-  if (at == std::string::npos) return LatexEscaped(printed);
-  return fmt::format("$-${}", LatexEscaped(printed.substr(at + minus.size())));
-}
-
-const char* LatexVerdict(Verdict verdict) {
+const char* Word(Verdict verdict) {
   switch (verdict) {
     case Verdict::kMet:
       return "met";
@@ -66,54 +40,39 @@ const char* LatexVerdict(Verdict verdict) {
     case Verdict::kNoResult:
       break;
   }
-  return "--";
+  return "–";
 }
 
-std::string LatexComparison(const ReportedExperiment& experiment) {
-  std::string rows;
+TextTable PaperTable(const ReportedExperiment& experiment) {
+  TextTable table{{"run", "metric", "paper", "ours", "difference", "target", "verdict"}, {}, {}};
   for (const Comparison& c : CompareWithPapers(experiment)) {
-    rows += fmt::format("\\midrule\n\\multicolumn{{6}}{{l}}{{{}, {}}} \\\\\n",
-                        LatexEscaped(Titled(c.metric)), LatexEscaped(c.expectation.source));
+    const std::string target =
+        c.target.empty() ? kNoNumber : (c.more_is_better() ? "≥ " : "≤ ") + c.target;
     for (const ComparedRun& run : c.runs) {
-      const std::string result =
-          run.problem.empty()
-              ? fmt::format("{} & {}", LatexNumber(run.ours), LatexNumber(run.difference))
-              : fmt::format("\\multicolumn{{2}}{{l}}{{{}}}", LatexEscaped(run.problem));
-      rows += fmt::format(
-          "\\texttt{{{}}} & {} & {} & {} & {} \\\\\n", LatexEscaped(run.run_id),
-          LatexNumber(c.paper), result,
-          c.target.empty() ? "--"
-                           : (c.more_is_better() ? "$\\ge$ " : "$\\le$ ") + LatexNumber(c.target),
-          LatexVerdict(run.verdict));
+      table.rows.push_back({{run.run_id},
+                            {Titled(c.metric)},
+                            {c.paper},
+                            {run.problem.empty() ? run.ours : run.problem},
+                            {run.difference},
+                            {target},
+                            {Word(run.verdict)}});
     }
+    table.notes.push_back(fmt::format("{}: {}. {}", Titled(c.metric), c.expectation.source,
+                                      c.expectation.not_comparable.empty()
+                                          ? c.expectation.remark
+                                          : "Not comparable: " + c.expectation.not_comparable));
   }
-  return "\\begin{tabular}{lrrrrl}\n\\toprule\n"
-         "run & paper & ours & difference & target & \\\\\n" +
-         rows + "\\bottomrule\n\\end{tabular}\n";
+  return table;
 }
 
-std::string LatexSummary(const ReportedExperiment& experiment) {
-  const SummaryTable table = MakeSummaryTable(experiment);
-  std::string header, rows;
-  for (const Metric& column : table.columns) {
-    header += fmt::format("{}{}", header.empty() ? "" : " & ", LatexEscaped(Titled(column)));
-  }
-  for (const SummaryTable::Row& row : table.rows) {
-    rows += fmt::format("\\texttt{{{}}}", LatexEscaped(row.run_id));
-    if (!row.problem.empty()) {
-      rows += fmt::format(" & \\multicolumn{{{}}}{{l}}{{{}}}", table.columns.size() - 1,
-                          LatexEscaped(row.problem));
-    } else {
-      for (std::size_t i = 1; i < table.columns.size(); ++i) {
-        rows += fmt::format(" & {}", LatexNumber(PrintedCell(row.cells[i], table.columns[i])));
-      }
-    }
-    rows += " \\\\\n";
-  }
-  return fmt::format(
-      "\\begin{{tabular}}{{l{}}}\n\\toprule\n{} "
-      "\\\\\n\\midrule\n{}\\bottomrule\n\\end{{tabular}}\n",
-      std::string(table.columns.size() - 1, 'r'), header, rows);
+// The variants' table and the comparison with the papers, those of them that have a row.
+std::vector<TextTable> TablesOf(const ReportedExperiment& experiment) {
+  const bool one_variant = ContendersOf(experiment).size() < 2;
+  std::vector<TextTable> tables = {one_variant ? ToText(TabulateScenes(experiment), "scene")
+                                               : ToText(TabulateVariants(experiment), "variant"),
+                                   PaperTable(experiment)};
+  std::erase_if(tables, [](const TextTable& table) { return table.rows.empty(); });
+  return tables;
 }
 
 // Those that a column of differences can be taken from.
@@ -152,9 +111,16 @@ std::string ToCsv(const ReportedExperiment& experiment) {
 }
 
 std::string ToLatex(const ReportedExperiment& experiment) {
-  return fmt::format("% {}: {}\n% needs \\usepackage{{booktabs}}\n\n{}\n{}", experiment.record.name,
-                     experiment.record.title, LatexComparison(experiment),
-                     LatexSummary(experiment));
+  std::string text = fmt::format("% {}: {}\n% needs \\usepackage{{booktabs}}\n",
+                                 experiment.record.name, experiment.record.title);
+  for (const TextTable& table : TablesOf(experiment)) text += "\n" + ToLatex(table);
+  return text;
+}
+
+std::string ToMarkdown(const ReportedExperiment& experiment) {
+  std::string text = fmt::format("# {}\n", experiment.record.title);
+  for (const TextTable& table : TablesOf(experiment)) text += "\n" + ToMarkdown(table);
+  return text;
 }
 
 }  // namespace vitruvia

@@ -54,6 +54,22 @@ bool AnyHas(const std::vector<const RunRecord*>& runs, const std::string& key) {
                      [&](const RunRecord* run) { return run->summary.contains(key); });
 }
 
+// Keys of the rows that are no columns yet: an experiment's own summaries.
+std::vector<std::string> MembersOf(const std::vector<const RunRecord*>& runs,
+                                   const std::vector<Metric>& columns) {
+  std::vector<std::string> keys;
+  for (const RunRecord* run : runs) {
+    for (const auto& item : run->summary.items()) {
+      const bool known = std::find(keys.begin(), keys.end(), item.key()) != keys.end() ||
+                         std::any_of(columns.begin(), columns.end(), [&](const Metric& column) {
+                           return column.key == item.key();
+                         });
+      if (!known) keys.push_back(item.key());
+    }
+  }
+  return keys;
+}
+
 // The run's name, then the metrics that some run has; all leading ones while no run has finished.
 std::vector<Metric> ColumnsOf(const std::vector<const RunRecord*>& finished) {
   std::vector<Metric> columns, others;
@@ -64,6 +80,7 @@ std::vector<Metric> ColumnsOf(const std::vector<const RunRecord*>& finished) {
     if (is_used) (leads ? columns : others).push_back(metric);
   }
   columns.insert(columns.end(), others.begin(), others.end());
+  for (const std::string& key : MembersOf(finished, columns)) columns.push_back(FindMetric(key));
   return columns;
 }
 

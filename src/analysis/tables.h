@@ -1,4 +1,4 @@
-// The report's tables as plain text cells, and their CSV and LaTeX forms.
+// The report's tables as plain text cells, and their CSV, LaTeX and Markdown forms.
 #pragma once
 
 #include <cmath>
@@ -52,7 +52,9 @@ std::vector<StepRow> CompareSteps(const RunRecord& run);
 
 // A row per run, numbers as stored, then for each published number paper and difference.
 std::string ToCsv(const ReportedExperiment& experiment);
-// Two tabulars: the comparison with the papers, and all runs with the metrics of the comparison.
+// Two tables: the variants (of a single one its scenes) with the experiment's table_columns, and
+// the comparison with papers. A table without a row is left out.
 std::string ToLatex(const ReportedExperiment& experiment);
+std::string ToMarkdown(const ReportedExperiment& experiment);
 
 }  // namespace vitruvia

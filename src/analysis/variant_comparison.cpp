@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "analysis/swept_settings.h"
 #include "core/error.h"
 #include "records/metric_value.h"
 
@@ -77,9 +78,47 @@ std::vector<Metric> MetricsToCompare(const std::vector<RunPair>& pairs,
   return metrics;
 }
 
+// Differences of pairs by scene. Repeats of a run that agree to the last bit, as all but times do,
+// are one pair.
+class DifferencesByScene {
+ public:
+  void Add(const RunRecord& run, double difference) {
+    const auto key = std::pair(run.scene, run.seed);
+    const auto found =
+        std::find_if(runs_.begin(), runs_.end(), [&](const auto& r) { return r.key == key; });
+    if (found == runs_.end()) {
+      runs_.push_back({key, {difference}});
+    } else {
+      found->repeats.push_back(difference);
+    }
+  }
+
+  Groups Grouped() const {
+    Groups groups;
+    std::map<std::string, std::size_t> of_scene;
+    for (const Run& run : runs_) {
+      const auto [place, is_new] = of_scene.emplace(run.key.first, groups.size());
+      if (is_new) groups.emplace_back();
+      std::vector<double>& group = groups[place->second];
+      const auto& repeats = run.repeats;
+      const bool agree = std::equal(repeats.begin() + 1, repeats.end(), repeats.begin());
+      group.insert(group.end(), repeats.begin(), agree ? repeats.begin() + 1 : repeats.end());
+    }
+    return groups;
+  }
+
+ private:
+  struct Run {
+    std::pair<std::string, int> key;
+    std::vector<double> repeats;
+  };
+  std::vector<Run> runs_;
+};
+
 VariantComparison Compared(const PairedRuns& paired, const Metric& metric) {
   VariantComparison row{metric, paired.reference, paired.other, paired.unpaired, {}, {}, {}};
   std::vector<double> reference, other;
+  DifferencesByScene differences;
   for (const RunPair& pair : paired.pairs) {
     const double a = MetricValue(*pair.reference, metric), b = MetricValue(*pair.other, metric);
     if (std::isnan(a) || std::isnan(b)) {
@@ -88,12 +127,19 @@ VariantComparison Compared(const PairedRuns& paired, const Metric& metric) {
     }
     reference.push_back(a);
     other.push_back(b);
+    differences.Add(*pair.other, b - a);
   }
   if (other.empty()) return row;
   row.reference_spread = SpreadOf(reference);
   row.other_spread = SpreadOf(other);
-  row.comparison = ComparePairs(reference, other);
+  row.comparison = ComparePairs(differences.Grouped());
   return row;
+}
+
+void AdjustTogether(std::vector<VariantComparison*> rows) {
+  std::vector<PairedComparison*> comparisons;
+  for (VariantComparison* row : rows) comparisons.push_back(&row->comparison);
+  AdjustByHolm(comparisons, BootstrapSettings{}.confidence);
 }
 
 std::vector<VariantComparison> Table(const std::vector<PairedRuns>& all,
@@ -108,6 +154,9 @@ std::vector<VariantComparison> Table(const std::vector<PairedRuns>& all,
       if (row.other_spread.count > 0) rows.push_back(row);
     }
   }
+  std::vector<VariantComparison*> together;
+  for (VariantComparison& row : rows) together.push_back(&row);
+  AdjustTogether(together);
   return rows;
 }
 
@@ -152,28 +201,93 @@ bool IsZeroInAll(const std::vector<Contender>& contenders, const Metric& metric)
 }
 
 // Means of counts are printed with a decimal.
-std::vector<Metric> TabulatedMetrics(const std::vector<Contender>& contenders) {
-  std::vector<Metric> metrics = MetricsShownIn(Place::kVariantTable);
-  std::erase_if(metrics, [&](const Metric& metric) { return IsZeroInAll(contenders, metric); });
+std::vector<Metric> TabulatedMetrics(const std::vector<Contender>& contenders,
+                                     const ExperimentRecord& experiment) {
+  std::vector<Metric> metrics;
+  for (const std::string& key : experiment.table_columns) metrics.push_back(FindMetric(key));
+  if (experiment.table_columns.empty()) {
+    metrics = MetricsShownIn(Place::kVariantTable);
+    std::erase_if(metrics, [&](const Metric& metric) { return IsZeroInAll(contenders, metric); });
+    for (const FrameSummary& summary : experiment.summaries)
+      metrics.push_back(FindMetric("summary[" + summary.name + "]"));
+  }
   for (Metric& metric : metrics) metric.decimals = std::max(metric.decimals, 1);
   return metrics;
+}
+
+std::vector<SampleSpread> SpreadsOf(const std::vector<Contender>& contenders,
+                                    const Metric& metric) {
+  std::vector<SampleSpread> spreads;
+  for (const Contender& contender : contenders)
+    spreads.push_back(SpreadOf(ValuesOf(contender, metric)));
+  return spreads;
+}
+
+// Indices of the best and the second best mean; nothing if there are no two, or none is better.
+std::optional<std::pair<std::size_t, std::size_t>> BestTwo(const std::vector<Contender>& contenders,
+                                                           const Metric& metric) {
+  const std::vector<SampleSpread> spreads = SpreadsOf(contenders, metric);
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < spreads.size(); ++i) {
+    if (spreads[i].count > 0) order.push_back(i);
+  }
+  if (order.size() < 2 || metric.better == Better::kNeither) return std::nullopt;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return metric.better == Better::kHigher ? spreads[a].mean > spreads[b].mean
+                                            : spreads[a].mean < spreads[b].mean;
+  });
+  return std::pair(order[0], order[1]);
+}
+
+// The best contender of each metric whose difference from the second best is shown; nothing else.
+std::vector<std::optional<std::size_t>> ShownBest(const std::vector<Contender>& contenders,
+                                                  const std::vector<Metric>& metrics) {
+  std::vector<std::optional<std::size_t>> best(metrics.size());
+  std::vector<VariantComparison> rows(metrics.size());
+  std::vector<VariantComparison*> together;
+  for (std::size_t m = 0; m < metrics.size(); ++m) {
+    const auto two = BestTwo(contenders, metrics[m]);
+    if (!two) continue;
+    rows[m] = Compared(Paired(contenders[two->second], contenders[two->first]), metrics[m]);
+    if (rows[m].other_spread.count == 0) continue;
+    best[m] = two->first;
+    together.push_back(&rows[m]);
+  }
+  AdjustTogether(together);
+  for (std::size_t m = 0; m < metrics.size(); ++m) {
+    const Difference verdict = rows[m].comparison.verdict;
+    if (verdict != Difference::kLower && verdict != Difference::kHigher) best[m].reset();
+  }
+  return best;
 }
 
 }  // namespace
 
 std::vector<Contender> ContendersOf(const ReportedExperiment& experiment) {
   std::vector<Contender> contenders = ContendersByFullName(experiment);
-  std::set<std::string> methods, variants;
+  std::set<std::string> methods, variants, unswept;
   for (const Contender& contender : contenders) {
     methods.insert(contender.runs.front()->method);
     variants.insert(contender.runs.front()->variant);
+    unswept.insert(UnsweptName(contender.runs.front()->variant));
   }
   for (Contender& contender : contenders) {
     const RunRecord& run = *contender.runs.front();
-    if (methods.size() == 1) contender.name = run.variant;
-    if (methods.size() > 1 && variants.size() == 1) contender.name = run.method;
+    const std::string variant = unswept.size() == 1 ? SweptPart(run.variant) : run.variant;
+    contender.name = methods.size() == 1    ? variant
+                     : variants.size() == 1 ? run.method
+                                            : run.method + "/" + variant;
   }
   return contenders;
+}
+
+std::size_t DefaultContender(const ReportedExperiment& experiment,
+                             const std::vector<Contender>& contenders) {
+  const auto found =
+      std::find_if(contenders.begin(), contenders.end(), [&](const Contender& contender) {
+        return AreOthersAtDefault(*contender.runs.front(), experiment.record.sweep, nullptr);
+      });
+  return found == contenders.end() ? 0 : static_cast<std::size_t>(found - contenders.begin());
 }
 
 std::vector<VariantComparison> CompareVariants(const ReportedExperiment& experiment,
@@ -185,9 +299,14 @@ std::vector<VariantComparison> CompareVariants(const ReportedExperiment& experim
     throw ConfigError(fmt::format("{}: {} variant has finished runs; expected two at least", where,
                                   contenders.empty() ? "no" : "only one"));
   }
-  const auto chosen = std::find_if(
-      contenders.begin(), contenders.end(),
-      [&](const Contender& contender) { return reference.empty() || contender.name == reference; });
+  const auto usual =
+      contenders.begin() + static_cast<std::ptrdiff_t>(DefaultContender(experiment, contenders));
+  const auto chosen =
+      reference.empty()
+          ? usual
+          : std::find_if(contenders.begin(), contenders.end(), [&](const Contender& c) {
+              return c.name == reference || c.runs.front()->variant == reference;
+            });
   if (chosen == contenders.end()) {
     throw ConfigError(fmt::format("{}: no variant \"{}\"; there are: {}", where, reference,
                                   fmt::join(NamesOf(contenders), ", ")));
@@ -201,17 +320,50 @@ std::vector<VariantComparison> CompareVariants(const ReportedExperiment& experim
 
 VariantTable TabulateVariants(const ReportedExperiment& experiment) {
   const std::vector<Contender> contenders = ContendersOf(experiment);
-  VariantTable table{TabulatedMetrics(contenders), {}};
-  for (const Contender& contender : contenders) {
-    const bool is_reference = &contender == &contenders.front();
-    const PairedRuns paired = Paired(contenders.front(), contender);
+  VariantTable table{"", TabulatedMetrics(contenders, experiment.record), {}};
+  if (contenders.empty()) return table;
+  const Contender& reference = contenders[DefaultContender(experiment, contenders)];
+  table.reference = reference.name;
+  const auto best = ShownBest(contenders, table.metrics);
+  for (std::size_t c = 0; c < contenders.size(); ++c) {
+    const Contender& contender = contenders[c];
+    const PairedRuns paired = Paired(reference, contender);
     VariantSummary row{contender.name, static_cast<int>(contender.runs.size()), {}};
-    for (const Metric& metric : table.metrics) {
-      row.cells.push_back({SpreadOf(ValuesOf(contender, metric)), std::nullopt});
-      if (is_reference) continue;
+    for (std::size_t m = 0; m < table.metrics.size(); ++m) {
+      const Metric& metric = table.metrics[m];
+      row.cells.push_back({SpreadOf(ValuesOf(contender, metric)), std::nullopt, best[m] == c});
+      if (&contender == &reference) continue;
       const VariantComparison difference = Compared(paired, metric);
       if (difference.other_spread.count > 0) row.cells.back().difference = difference;
     }
+    table.rows.push_back(std::move(row));
+  }
+  std::vector<VariantComparison*> together;
+  for (VariantSummary& row : table.rows) {
+    for (VariantSummary::Cell& cell : row.cells) {
+      if (cell.difference) together.push_back(&*cell.difference);
+    }
+  }
+  AdjustTogether(together);
+  return table;
+}
+
+VariantTable TabulateScenes(const ReportedExperiment& experiment) {
+  std::vector<Contender> scenes;
+  for (const RunRecord* run : experiment.finished()) {
+    const auto found = std::find_if(scenes.begin(), scenes.end(),
+                                    [&](const Contender& c) { return c.name == run->scene; });
+    if (found == scenes.end()) {
+      scenes.push_back({run->scene, {run}});
+    } else {
+      found->runs.push_back(run);
+    }
+  }
+  VariantTable table{"", TabulatedMetrics(scenes, experiment.record), {}};
+  for (const Contender& scene : scenes) {
+    VariantSummary row{scene.name, static_cast<int>(scene.runs.size()), {}};
+    for (const Metric& metric : table.metrics)
+      row.cells.push_back({SpreadOf(ValuesOf(scene, metric)), std::nullopt, false});
     table.rows.push_back(std::move(row));
   }
   return table;

@@ -8,12 +8,15 @@
 #include "analysis/experiment_runs.h"
 #include "analysis/paired_comparison.h"
 #include "analysis/printed_metric.h"
+#include "analysis/text_table.h"
 
 namespace vitruvia {
 
 // All finished runs of one variant with one method.
 struct Contender {
-  std::string name;  // variant, method or "method/variant": what tells it from the others
+  // Variant, method or "method/variant": what tells it from the others. Where all were swept from
+  // one variant, that is left out.
+  std::string name;
   std::vector<const RunRecord*> runs;
 };
 // In the order of the grid. They point into the experiment.
@@ -28,9 +31,14 @@ struct VariantComparison {
   PairedComparison comparison;
 };
 
-// Every contender against `reference`; "": the first. `metrics` empty: those that matter most of
-// those that there are. A contender without any pair in a metric has no row for it. ConfigError if
-// there is nothing to compare with, or no contender or metric of a name.
+// The contender that has every swept setting at its default; the first where there is no sweep or
+// no such one.
+std::size_t DefaultContender(const ReportedExperiment& experiment,
+                             const std::vector<Contender>& contenders);
+
+// Every contender against `reference`; "": the default one. `metrics` empty: those that matter most
+// of those that there are. A contender without any pair in a metric has no row for it. ConfigError
+// if there is nothing to compare with, or no contender or metric of a name.
 std::vector<VariantComparison> CompareVariants(const ReportedExperiment& experiment,
                                                const std::string& reference,
                                                const std::vector<std::string>& metrics);
@@ -48,25 +56,43 @@ struct VariantSummary {
     SampleSpread spread;  // over all its finished runs that have the metric
     // Against the reference, over pairs; nothing for the reference itself or without a pair.
     std::optional<VariantComparison> difference;
+    // Better than all others, and its difference from the second best is shown.
+    bool is_best = false;
   };
   std::string name;
   int runs = 0;
   std::vector<Cell> cells;  // one for each metric of the table
 };
 struct VariantTable {
-  std::vector<Metric> metrics;       // the few that a reader looks at first
-  std::vector<VariantSummary> rows;  // the first is the reference
+  std::string reference;
+  std::vector<Metric> metrics;  // the experiment's table_columns, or those a reader looks at first
+  std::vector<VariantSummary> rows;
 };
 VariantTable TabulateVariants(const ReportedExperiment& experiment);
+// Of an experiment with a single contender: a row for each scene, over its seeds.
+VariantTable TabulateScenes(const ReportedExperiment& experiment);
+// Mean ± standard deviation of each cell; the best one bold where that is shown.
+TextTable ToText(const VariantTable& table, const std::string& first_column);
 // { "confidence", "reference", "rows": [ { "variant", "runs", "metrics": { … } } ] }
 nlohmann::json ToJson(const VariantTable& table);
 
-// "lower (better)", "higher (worse)", "no difference", "too few pairs".
+// "lower (better)", "higher (worse)", "difference not shown", "too few pairs".
 std::string VerdictText(const VariantComparison& row);
 // The mean difference as a percentage of the reference's mean, signed; "–" where that is 0.
 std::string RelativeText(const VariantComparison& row);
 
 nlohmann::json ToJson(const std::vector<VariantComparison>& rows);
 std::string ToCsv(const std::vector<VariantComparison>& rows);
+// Variant, mean ± standard deviation, difference, interval, pairs and verdict.
+TextTable ToText(const std::vector<VariantComparison>& rows);
+
+// What the pairs are independent samples of: "8 scenes", or "6 pairs" of one scene.
+std::string UnitsText(const PairedComparison& comparison);
+// "mean ± deviation", scaled to the metric's unit; without the deviation where there is none.
+std::string SpreadText(const SampleSpread& spread, const Metric& metric);
+// "+1.2 … +1.6"; "–" where nothing is known of it.
+std::string IntervalText(const VariantComparison& row);
+// How comparisons are made, in full sentences; `count` of them are corrected together.
+std::string MethodText(std::size_t count);
 
 }  // namespace vitruvia

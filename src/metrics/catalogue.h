@@ -55,6 +55,7 @@ inline constexpr const char* kStepMedian = "step_ms_median[{step}]";
 inline constexpr const char* kStepP95 = "step_ms_p95[{step}]";
 inline constexpr const char* kStepMax = "step_ms_max[{step}]";
 inline constexpr const char* kEnergyOfTerm = "energy_{term}";
+inline constexpr const char* kOwnSummary = "summary[{name}]";
 
 // The median time of a frame as a multiple of the calibration kernel's (core/calibration.h), taken
 // in the same process: compares across machines. Computed from a record, not stored.

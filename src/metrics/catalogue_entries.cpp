@@ -60,10 +60,10 @@ std::vector<Metric> FrameCounts() {
        .better = Better::kLower,
        .definition = "Per frame: 1 if the tracker reported a failure, else 0."},
       {.key = "frames_lost",
-       .label = "lost frames",
+       .label = "lost frames by truth",
        .decimals = 1,
        .better = Better::kLower,
-       .shown_in = {kComparison, kGate},
+       .shown_in = {kComparison, kTerminal, kGate},
        .definition = "Number of frames in which the tracker reported a failure or the mean L2 "
                      "error of the visible surface is above 5 cm."},
       {.key = "frames_to_recover",
@@ -268,7 +268,8 @@ std::vector<Metric> JointErrorMetrics() {
        .scale = 1e3,
        .decimals = 2,
        .better = Better::kLower,
-       .shown_in = {kSummaryTable, kVariantTable, kComparison, kGate, kSpeedPlot, kHistoryPlot},
+       .shown_in = {kSummaryTable, kVariantTable, kComparison, kTerminal, kGate, kSpeedPlot,
+                    kHistoryPlot},
        .definition =
            "Mean distance between estimated and true joints, over all joints and frames whose "
            "truth is known. In a series per frame it is the mean over the joints of that frame."},
@@ -768,6 +769,12 @@ const std::vector<Metric>& MetricFamilies() {
        .better = Better::kLower,
        .definition = "Maximum over the frames of the time of one step of the method, summed over "
                      "the frame's iterations."},
+      {.key = kOwnSummary,
+       .label = "{name}",
+       .decimals = 4,
+       .definition = "A summary that the experiment defines: a statistic over the frames that have "
+                     "a value of the series (vitruvia explain experiment.summaries), failed and "
+                     "lost frames included, in the unit of the stored series."},
       {.key = kEnergyOfTerm,
        .label = "energy of term {term}",
        .decimals = 4,

@@ -21,6 +21,7 @@ double FamilyValue(const RunRecord& run, const Metric& metric) {
     return StepTime(run, metric.member, &RunRecord::Step::median_ms);
   if (metric.family == kStepP95) return StepTime(run, metric.member, &RunRecord::Step::p95_ms);
   if (metric.family == kStepMax) return StepTime(run, metric.member, &RunRecord::Step::max_ms);
+  if (metric.family == kOwnSummary) return MemberNumber(run.summary, metric.key);
   if (metric.family == kJointErrorOfJoint) {
     const auto found = run.joint_error_mean_m.find(metric.member);
     if (found != run.joint_error_mean_m.end()) return found->second;

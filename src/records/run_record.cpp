@@ -129,6 +129,13 @@ std::string RunRecord::Problem() const {
   return "";
 }
 
+void SweptSetting::Describe(Fields& f) {
+  f.Text("setting", path, {.meaning = "path of the setting in the config of each run"});
+  f.Choice("scale", scale, {{"linear", SweepScale::kLinear}, {"log", SweepScale::kLogarithmic}},
+           {.meaning = "whether differences or ratios of its values count"});
+  f.FreeJson("default", default_value, {.meaning = "value without the sweep"});
+}
+
 void ExperimentRecord::Describe(Fields& f) {
   f.Text("name", name, {.meaning = "path of the experiment's file below configs/"});
   f.Text("title", title, {.meaning = "title of the report"});
@@ -137,6 +144,12 @@ void ExperimentRecord::Describe(Fields& f) {
   f.Integers("picture_frames", picture_frames, {.meaning = "frames of the report's pictures"});
   f.Flag("side_by_side", side_by_side,
          {.meaning = "whether the report shows the pictures of all runs below each other"});
+  f.Texts(
+      "table_columns", table_columns,
+      {.meaning = "metrics of the table of variants; absent: the usual ones", .optional = true});
+  f.List("summaries", summaries,
+         {.meaning = "summaries that the experiment defines", .optional = true});
+  f.List("sweep", sweep, {.meaning = "settings that the variants sweep", .optional = true});
   f.Texts("run_ids", run_ids, {.meaning = "runs of the experiment, in the order of its grid"});
   f.Map("failed_runs", failed_runs, {.meaning = "run → why it failed or is out of date"});
 }

@@ -6,7 +6,7 @@
 //   <run id>/record.json   RunRecord
 //   <run id>/estimate/     see estimate.h
 //   <run id>/status, log   "done KEY", or "failed KEY" and why; the run's own messages
-//   report.html, table.csv, table.tex, figures/*.png, figures/*.svg
+//   report.html, table.csv, table.tex, table.md, figures/*.png, figures/*.svg
 #pragma once
 
 #include <filesystem>
@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "config/stored_data.h"
+#include "records/frame_summary.h"
 
 namespace vitruvia {
 
@@ -69,14 +70,28 @@ struct RunRecord {
   static void Upgrade(Json& file, int version);
 };
 
+// How the values of a swept setting are spread, and its axis in plots.
+enum class SweepScale { kLinear, kLogarithmic };
+
+struct SweptSetting {
+  std::string path;  // "method.settings.fit.edge_px", in the runs' config
+  SweepScale scale = SweepScale::kLinear;
+  nlohmann::json default_value;  // what it is without the sweep
+
+  void Describe(Fields& fields);
+};
+
 struct ExperimentRecord {
   static constexpr StoredFormat kFormat{"vitruvia-experiment", 1, 0, "run the experiment again"};
 
   std::string name;  // the config's path below configs/, e.g. "realtime_scape/fig11"
   std::string title, description;
   std::vector<Expectation> expectations;
-  std::vector<int> picture_frames;   // where the report's picture strips are taken
-  bool side_by_side = false;         // whether the report shows runs below each other
+  std::vector<int> picture_frames;  // of the report's picture strips; none: spread over the run
+  bool side_by_side = false;        // whether the report shows runs below each other
+  std::vector<std::string> table_columns{};  // metrics of the variants' table; none: the usual ones
+  std::vector<FrameSummary> summaries{};     // of the experiment's own
+  std::vector<SweptSetting> sweep{};         // what the variants' names after a comma say
   std::vector<std::string> run_ids;  // in the order of the grid; a missing run is reported as such
   std::map<std::string, std::string> failed_runs;  // run id → reason
 

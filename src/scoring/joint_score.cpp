@@ -128,6 +128,23 @@ void RequireJoints(const EstimateReader& estimate, const std::string& where) {
 
 }  // namespace
 
+JointErrorsOfFrames FindJointErrors(const SequenceReader& sequence,
+                                    const EstimateReader& estimate) {
+  RequireJoints(estimate, sequence.folder().string());
+  const std::vector<SharedJoint> shared = SharedJoints(sequence.info().joints);
+  const JointTracks tracks = TracksOf(sequence, estimate, shared);
+  JointErrorsOfFrames errors;
+  for (const SharedJoint& joint : shared) errors.joints.push_back(joint.name);
+  for (int frame = 0; frame < sequence.info().frames; ++frame) {
+    std::vector<double> of_frame = JointErrors(tracks.estimates[frame], tracks.truths[frame]);
+    for (std::size_t k = 0; k < shared.size(); ++k) {
+      if (!sequence.true_joints(frame).Knows(shared[k].in_sequence)) of_frame[k] = kAbsent;
+    }
+    errors.errors_m.push_back(std::move(of_frame));
+  }
+  return errors;
+}
+
 void ScoreJoints(const SequenceReader& sequence, const EstimateReader& estimate,
                  RunRecord& record) {
   RequireJoints(estimate, sequence.folder().string());

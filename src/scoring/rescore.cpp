@@ -4,6 +4,7 @@
 #include "core/build_info.h"
 #include "core/error.h"
 #include "scoring/score.h"
+#include "scoring/summaries.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -18,7 +19,8 @@ ScoreSettings ScoreSettingsOf(const RunRecord& record) {
 
 }  // namespace
 
-RunRecord Rescored(const fs::path& experiment_folder, const RunRecord& record) {
+RunRecord Rescored(const fs::path& experiment_folder, const RunRecord& record,
+                   const std::vector<FrameSummary>& summaries) {
   const SequenceReader sequence(experiment_folder / record.sequence_folder);
   if (sequence.hash() != record.sequence_hash) {
     throw DataError(fmt::format(
@@ -42,8 +44,9 @@ RunRecord Rescored(const fs::path& experiment_folder, const RunRecord& record) {
   for (const char* key : {"run_id", "variant", "scene", "seed", "method", "repeat"}) {
     if (record.summary.contains(key)) fresh.summary[key] = record.summary.at(key);
   }
-  ScoreRun(sequence, EstimateReader(experiment_folder / record.run_id / "estimate"),
-           ScoreSettingsOf(record), fresh);
+  const EstimateReader estimate(experiment_folder / record.run_id / "estimate");
+  ScoreRun(sequence, estimate, ScoreSettingsOf(record), fresh);
+  AddSummaries(sequence, estimate, summaries, fresh);
   return fresh;
 }
 

@@ -107,35 +107,109 @@ TEST(BootstrapMeanInterval, HoldsTheMeanAsOftenAsItSays) {
   EXPECT_NEAR(Coverage(9, uniform), 0.95, 0.025);
 }
 
+TEST(GroupedMeanInterval, OfOneGroupIsThatOfItsValues) {
+  const std::vector<double> values = {0.3, 1.2, -0.4, 0.8, 2.1, 0.9};
+  EXPECT_EQ(GroupedMeanInterval({values}, {}).low, BootstrapMeanInterval(values, {}).low);
+  EXPECT_THROW(GroupedMeanInterval({{1.0}, {}}, {}), std::invalid_argument);
+}
+
+// Seeds of a scene share what the scene does: with a scene's effect as large as the noise, an
+// interval that takes 24 pairs of 6 scenes for independent holds the mean far too rarely.
+TEST(GroupedMeanInterval, HoldsTheMeanWherePairsOfAScenesShareItsEffect) {
+  constexpr int kTrials = 300, kScenes = 6, kSeeds = 4;
+  RandomStream random(23, "grouped");
+  int held = 0, held_if_pooled = 0;
+  const auto holds = [](const Interval& i) { return i.low <= 0.0 && i.high >= 0.0 ? 1 : 0; };
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Groups groups;
+    std::vector<double> pooled;
+    for (int scene = 0; scene < kScenes; ++scene) {
+      const double effect = random.Normal();
+      std::vector<double>& group = groups.emplace_back();
+      for (int seed = 0; seed < kSeeds; ++seed) group.push_back(effect + 0.5 * random.Normal());
+      pooled.insert(pooled.end(), group.begin(), group.end());
+    }
+    const BootstrapSettings settings{.resamples = 500};
+    held += holds(GroupedMeanInterval(groups, settings));
+    held_if_pooled += holds(BootstrapMeanInterval(pooled, settings));
+  }
+  EXPECT_GE(held, 0.91 * kTrials);
+  EXPECT_LE(held_if_pooled, 0.80 * kTrials);
+}
+
+Groups Differences(const std::vector<double>& reference, const std::vector<double>& other) {
+  Groups groups(1);
+  for (std::size_t i = 0; i < other.size(); ++i) groups[0].push_back(other[i] - reference[i]);
+  return groups;
+}
+
 TEST(ComparePairs, CallsADifferenceOnlyWhereTheIntervalExcludesZero) {
   const std::vector<double> reference = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0};
   const std::vector<double> higher = {1.2, 2.3, 3.1, 4.2, 5.3, 6.1};
   const std::vector<double> mixed = {1.2, 1.7, 3.1, 3.8, 5.3, 5.9};
-  const PairedComparison up = ComparePairs(reference, higher);
+  const PairedComparison up = ComparePairs(Differences(reference, higher));
   EXPECT_EQ(up.verdict, Difference::kHigher);
   EXPECT_NEAR(up.difference.mean, 0.2, 1e-12);
   EXPECT_GT(up.interval.low, 0.0);
-  EXPECT_EQ(ComparePairs(higher, reference).verdict, Difference::kLower);
-  EXPECT_EQ(ComparePairs(reference, mixed).verdict, Difference::kNone);
-  EXPECT_EQ(ComparePairs(reference, reference).verdict, Difference::kNone);
+  // Differences 0.2, 0.3, 0.1 twice: t = 0.2 / (0.0894 / √6) = 5.48 with 5 degrees of freedom.
+  EXPECT_NEAR(up.p, 0.0028, 1e-4);
+  EXPECT_EQ(ComparePairs(Differences(higher, reference)).verdict, Difference::kLower);
+  EXPECT_EQ(ComparePairs(Differences(reference, mixed)).verdict, Difference::kNotShown);
+  EXPECT_EQ(ComparePairs(Differences(reference, reference)).verdict, Difference::kNotShown);
+}
+
+TEST(ComparePairs, SixPairsOfTwoScenesAreTwo) {
+  const PairedComparison of_one = ComparePairs({{1.0, 1.1, 0.9, 2.0, 2.1, 1.9}});
+  const PairedComparison of_two = ComparePairs({{1.0, 1.1, 0.9}, {2.0, 2.1, 1.9}});
+  EXPECT_EQ(of_one.verdict, Difference::kHigher);
+  EXPECT_EQ(of_two.difference.count, 6);
+  EXPECT_EQ(of_two.unit_difference.count, 2);
+  EXPECT_EQ(of_two.verdict, Difference::kNotShown);
+  EXPECT_GT(of_two.p, 0.1);  // t = 3 with one degree of freedom: 0.20
 }
 
 TEST(ComparePairs, IsNotFooledByASpreadThatBothShare) {
   // Scenes differ by far more than the variants, as scenes do: only pairs show the difference.
-  std::vector<double> reference, other;
-  for (int scene = 0; scene < 6; ++scene) {
-    reference.push_back(std::exp(scene));
-    other.push_back(std::exp(scene) + 0.01 * (1 + scene % 2));
-  }
-  EXPECT_EQ(ComparePairs(reference, other).verdict, Difference::kHigher);
+  Groups groups;
+  for (int scene = 0; scene < 6; ++scene)
+    groups.push_back({std::exp(scene) + 0.01 * (1 + scene % 2) - std::exp(scene)});
+  EXPECT_EQ(ComparePairs(groups).verdict, Difference::kHigher);
 }
 
 TEST(ComparePairs, SaysWhenPairsAreTooFew) {
   EXPECT_EQ(FewestPairs(0.95), 6);
   EXPECT_EQ(FewestPairs(0.5), 2);
-  const std::vector<double> reference(5, 1.0), other(5, 2.0);
-  EXPECT_EQ(ComparePairs(reference, other).verdict, Difference::kTooFewPairs);
-  EXPECT_THROW(ComparePairs(reference, {}), std::invalid_argument);
+  EXPECT_EQ(ComparePairs({std::vector<double>(5, 1.0)}).verdict, Difference::kTooFewPairs);
+  EXPECT_THROW(ComparePairs({}), std::invalid_argument);
+}
+
+PairedComparison WithP(double p) {
+  PairedComparison comparison = ComparePairs({{1.0, 1.1, 0.9, 1.0, 1.1, 0.9}});
+  comparison.p = p;
+  return comparison;
+}
+
+TEST(AdjustByHolm, MultipliesTheSmallestByTheirNumberAndKeepsTheOrder) {
+  // Holm 1979: 0.01 × 4, 0.02 × 3, 0.022 × 2 raised to what stands before it, 0.8 × 1.
+  std::vector<PairedComparison> all = {WithP(0.02), WithP(0.01), WithP(0.8), WithP(0.022)};
+  PairedComparison few = ComparePairs({{1.0}});
+  few.p = 1e-9;
+  AdjustByHolm(std::vector<PairedComparison*>{&all[0], &all[1], &all[2], &all[3], &few}, 0.95);
+  EXPECT_NEAR(all[1].adjusted_p, 0.04, 1e-12);
+  EXPECT_NEAR(all[0].adjusted_p, 0.06, 1e-12);
+  EXPECT_NEAR(all[3].adjusted_p, 0.06, 1e-12);
+  EXPECT_NEAR(all[2].adjusted_p, 0.8, 1e-12);
+  EXPECT_EQ(all[1].verdict, Difference::kHigher);
+  EXPECT_EQ(all[0].verdict, Difference::kNotShown);
+  EXPECT_EQ(few.verdict, Difference::kTooFewPairs);
+}
+
+TEST(UnitsToShow, AgreesWithPublishedTables) {
+  // Two-sided paired test at 5 % with a power of 80 %: Cohen 1988, table 2.4.1, and G*Power.
+  EXPECT_EQ(UnitsToShow(0.5, 1.0, 0.95, 0.8), 34);
+  EXPECT_EQ(UnitsToShow(0.8, 1.0, 0.95, 0.8), 15);
+  EXPECT_EQ(UnitsToShow(2.0, 2.0, 0.95, 0.8), 10);
+  EXPECT_THROW(UnitsToShow(0.0, 1.0, 0.95, 0.8), std::invalid_argument);
 }
 
 TEST(ParetoFront, HoldsWhatNothingElseBeats) {

@@ -127,8 +127,8 @@ TEST_F(PageTest, LatexHoldsTheSummariesAsPrinted) {
   const RunRecord& run = Run(kOtherScene);
   const double ours = run.summary.at("l2_mean_of_diagonal");
   EXPECT_THAT(latex, HasSubstr(fmt::format(
-                         "\\texttt{{turn-base-s1}} & 0.00100 & {:.5f} & {:+.5f} & $\\le$ 0.00100 & "
-                         "missed \\\\",
+                         "turn-base-s1 & mean L2 error / diagonal & 0.00100 & {:.5f} & {:+.5f} & "
+                         "$\\le$ 0.00100 & missed \\\\",
                          ours, ours - 0.001)));
   EXPECT_THAT(latex, HasSubstr("failed: sequences/turn/depth/000003.png"));
   EXPECT_EQ(Count(latex, "\\begin{tabular}"), 2u);

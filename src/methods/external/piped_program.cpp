@@ -63,6 +63,8 @@ std::string LikelyCause(const fs::path& program, int reason) {
     return "; expected a program for this machine, or a script whose first line names its "
            "interpreter, such as \"#!/usr/bin/env python3\"";
   }
+  if (reason == EACCES)
+    return fmt::format("; the file may not be executed: chmod +x {}", program.string());
   if (reason == ENOENT && fs::exists(program, ignored))
     return "; the file is there, but not the interpreter that it asks for (its #! line)";
   return "";

@@ -1,0 +1,31 @@
+// What figures have in common: several runs as one curve with a band, colours, names.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "records/run_record.h"
+#include "reports/drawing/plot.h"
+
+namespace vitruvia {
+
+// `curves` may be of different lengths and have gaps (NaN); the mean is over those that have a
+// value. A single curve has no band. `x` is as long as the longest.
+Series MeanCurve(const std::string& name, Color color, const std::vector<double>& x,
+                 const std::vector<std::vector<double>>& curves);
+
+// What a caption says about the bands.
+inline constexpr const char* kBandText =
+    " Lines are means over a variant's seeds and repeats, bands run from the lowest to the "
+    "highest.";
+
+// Notes what a name in the legend stands for.
+void AddRuns(const std::string& name, const std::vector<const RunRecord*>& runs, Figure& figure);
+
+// A name as part of a file's name: letters, digits, - and _.
+std::string FileSafe(std::string text);
+
+// The colour of the i-th variant, in all figures.
+Color VariantColor(std::size_t index);
+
+}  // namespace vitruvia

@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""Runs the commands of README.md and docs/*.md: run_commands.py SOURCE PROGRAM [--slow]
+
+Every block of sh is carried out, page by page, in a folder that has the checkout's files and the
+program as build/vitruvia. A comment before a block says what else it is: <!-- slow --> is carried
+out with --slow only, <!-- sketch --> has placeholders. Of these the options and files of each
+command are still checked.
+"""
+import os
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+
+BLOCK = re.compile(r"(?:<!-- (slow|sketch) -->\n)?```sh\n(.*?)```", re.DOTALL)
+
+
+def blocks_of(page):
+    with open(page, encoding="utf-8") as file:
+        return BLOCK.findall(file.read())
+
+
+def make_sandbox(source, program, folder):
+    """Links to the checkout; what commands write stays in the sandbox."""
+    for name in os.listdir(source):
+        if name not in ("out",) and not name.startswith(("build", ".")):
+            os.symlink(os.path.join(source, name), os.path.join(folder, name))
+    os.mkdir(os.path.join(folder, "build"))
+    os.symlink(program, os.path.join(folder, "build", "vitruvia"))
+
+
+def help_of(program, words):
+    return subprocess.run([program, *words, "--help"], capture_output=True, text=True).stdout
+
+
+def problems_of(command, program, source):
+    """What of a command's subcommand, options, files and targets there is not."""
+    words = shlex.split(command, comments=True)
+    if not words:
+        return []
+    if words[0] == "make":
+        with open(os.path.join(source, "Makefile"), encoding="utf-8") as file:
+            targets = re.findall(r"^([a-z]+):", file.read(), re.MULTILINE)
+        return [w for w in words[1:] if "=" not in w and w not in targets]
+    if words[0] != "build/vitruvia":
+        return []
+    plain = [w for w in words[1:] if not w.startswith("-")]
+    depth = 2 if plain[:1] and plain[0] in ("learn", "import") else 1
+    text = help_of(program, plain[:depth])
+    found = [] if text else [" ".join(plain[:depth])]
+    found += [w for w in words if w.startswith("-") and not re.search(
+        rf"(?<![\w-]){re.escape(w.split('=')[0])}(?![\w-])", text)]
+    return found + [w for w in plain if w.startswith("configs/")
+                    and not os.path.exists(os.path.join(source, w))]
+
+
+def main():
+    source, program = sys.argv[1:3]
+    slow = "--slow" in sys.argv
+    docs = os.path.join(source, "docs")
+    pages = [os.path.join(source, "README.md")]
+    pages += sorted(os.path.join(docs, f) for f in os.listdir(docs) if f.endswith(".md"))
+    failures = []
+    for page in pages:
+        name = os.path.relpath(page, source)
+        with tempfile.TemporaryDirectory() as folder:
+            make_sandbox(source, program, folder)
+            for kind, block in blocks_of(page):
+                for line in block.splitlines():
+                    failures += [f"{name}: {line}: there is no {p}"
+                                 for p in problems_of(line, program, source)]
+                if kind == "sketch" or (kind == "slow" and not slow):
+                    continue
+                done = subprocess.run(["bash", "-euc", block], cwd=folder, capture_output=True,
+                                      text=True)
+                if done.returncode != 0:
+                    failures.append(f"{name}: exit code {done.returncode} of:\n{block}"
+                                    f"{done.stderr[-2000:]}")
+    print("\n".join(failures) or f"all commands of {len(pages)} pages work")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
