@@ -96,6 +96,16 @@ std::string LogOf(const EstimateReader& estimate) {
   return log;
 }
 
+// What the recording tells of the pose in its first frame.
+KnownJoints KnownOf(const SequenceInfo& info) {
+  KnownJoints known;
+  for (const StartJoint& start : info.start_pose) {
+    known.joints.push_back({FindJoint(start.joint), start.position});
+  }
+  if (!known.joints.empty()) known.deviation_m = info.start_pose_accuracy_m;
+  return known;
+}
+
 }  // namespace
 
 void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
@@ -108,9 +118,10 @@ void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
   const std::unique_ptr<Tracker> tracker = MakeTracker(method);
   EstimateWriter writer(folder, subject.rest);
   Progress progress("track " + method.method, info.frames);
+  const KnownJoints known = KnownOf(info);
   tracker->Start(subject, info.camera);
   for (int i = 0; i < info.frames; ++i) {
-    DepthFrame frame{i, i / info.fps, sequence.ReadDepth(i)};
+    DepthFrame frame{i, i / info.fps, sequence.ReadDepth(i), i == 0 ? known : KnownJoints()};
     prepare(frame);
     const Stopwatch watch;
     TrackResult result = tracker->TrackFrame(frame);

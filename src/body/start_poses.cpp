@@ -1,5 +1,7 @@
 #include "body/start_poses.h"
 
+#include <array>
+#include <utility>
 #include <vector>
 
 namespace vitruvia {
@@ -89,10 +91,65 @@ std::vector<StartPose> MakeStartPoses() {
   return poses;
 }
 
+std::vector<SideAngles> MakeArmPoses() {
+  std::vector<SideAngles> poses;
+  const auto add = [&](double flexion, double abduction, double rotation, double elbow) {
+    SideAngles& pose = poses.emplace_back();
+    pose[kShoulderFlexion] = flexion;
+    pose[kShoulderAbduction] = abduction;
+    pose[kShoulderRotation] = rotation;
+    pose[kElbowFlexion] = elbow;
+  };
+  constexpr std::array<std::pair<double, double>, 11> kSwings{{{0, 10},
+                                                               {45, 10},
+                                                               {90, 10},
+                                                               {140, 20},
+                                                               {0, 50},
+                                                               {0, 90},
+                                                               {0, 140},
+                                                               {60, 60},
+                                                               {-30, 15},
+                                                               {100, 100},
+                                                               {40, -25}}};
+  for (const auto& [flexion, abduction] : kSwings) {
+    add(flexion, abduction, 0, 8);
+    for (const double elbow : {50, 105}) {
+      for (const double rotation : {-45, 0, 50}) add(flexion, abduction, rotation, elbow);
+    }
+  }
+  return poses;
+}
+
+std::vector<SideAngles> MakeLegPoses() {
+  std::vector<SideAngles> poses;
+  for (const double flexion : {-15, 5, 30, 60, 90}) {
+    for (const double knee : {5, 45, 90}) {
+      if (flexion < 0 && knee > 45) continue;
+      for (const double abduction : {3, 20}) {
+        SideAngles& pose = poses.emplace_back();
+        pose[kHipFlexion] = flexion;
+        pose[kHipAbduction] = abduction;
+        pose[kKneeFlexion] = knee;
+      }
+    }
+  }
+  return poses;
+}
+
 }  // namespace
 
 std::span<const StartPose> StartPoses() {
   static const std::vector<StartPose> poses = MakeStartPoses();
+  return poses;
+}
+
+std::span<const SideAngles> ArmPoses() {
+  static const std::vector<SideAngles> poses = MakeArmPoses();
+  return poses;
+}
+
+std::span<const SideAngles> LegPoses() {
+  static const std::vector<SideAngles> poses = MakeLegPoses();
   return poses;
 }
 

@@ -1,7 +1,9 @@
 #include "fitting/depth_target.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include <Eigen/Eigenvalues>
@@ -116,6 +118,9 @@ DepthTarget::DepthTarget(const DepthImage& depth, const PinholeCamera& camera,
       centroid_(Centroid(points_.points)),
       zbuffer_(cell_camera_) {
   tree_.Build(points_.points);
+  const std::vector<float>& cells = cells_.pixels();
+  measured_cells_ =
+      static_cast<int>(std::count_if(cells.begin(), cells.end(), [](float z) { return z > 0.0f; }));
 }
 
 void DepthTarget::FindVisible(const PosedBody& body) {
@@ -208,6 +213,25 @@ MutualDistance DepthTarget::Measure(const PosedBody& body, const NearFar& limits
   }
   return {from_target.MeanOr(limits.far_m), from_body.MeanOr(limits.far_m), from_target.share(),
           from_body.share()};
+}
+
+double DepthTarget::ImageDistance(const PosedBody& body, double far_m) {
+  const std::vector<float>& rendered =
+      zbuffer_.Render(body.vertices(), body.body().triangles).pixels();
+  const std::vector<float>& measured = cells_.pixels();
+  const auto far = static_cast<float>(far_m);
+  constexpr std::size_t kLanes = 8;  // sums side by side
+  std::array<float, kLanes> sums{};
+  // An empty cell has depth 0: it is far from a covered one, and equal to another empty one.
+  const auto add = [&](std::size_t i, std::size_t lane) {
+    sums[lane] += std::min(std::abs(rendered[i] - measured[i]), far);
+  };
+  std::size_t i = 0;
+  for (; i + kLanes <= measured.size(); i += kLanes) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) add(i + lane, lane);
+  }
+  for (; i < measured.size(); ++i) add(i, 0);
+  return std::accumulate(sums.begin(), sums.end(), 0.0) / std::max(1, measured_cells_);
 }
 
 Vector3d DepthTarget::VisibleCenter(const PosedBody& body) {

@@ -26,7 +26,7 @@ void PoseFit::Assemble(const FitStage& stage, double robust_m, const FitPriors& 
   gradient_.setZero(columns);
   const auto robust = static_cast<float>(robust_m);
   const auto point_share = static_cast<float>(stage.point_share);
-  const float plane_share = 1.0f - point_share;
+  const float plane_share = 1.0f - point_share, point_root = std::sqrt(point_share);
   const float scale = static_cast<float>(
       std::sqrt(priors.point_count / std::max<double>(1.0, static_cast<double>(pairs_.size()))) /
       priors.point_deviation_m);
@@ -48,13 +48,15 @@ void PoseFit::Assemble(const FitStage& stage, double robust_m, const FitPriors& 
     const float along = pair.normal.dot(d);
     const float squared = plane_share * along * along + point_share * d.squaredNorm();
     const float weight = scale * std::sqrt(pair.weight) / (1.0f + squared / (robust * robust));
-    if (plane_share > 0.0f) {
-      add(pair.vertex, pair.normal, weight * std::sqrt(plane_share), along);
+    if (point_share == 0.0f) {
+      add(pair.vertex, pair.normal, weight, along);
+      continue;
     }
-    if (point_share > 0.0f) {
-      for (int k = 0; k < 3; ++k) {
-        add(pair.vertex, Vector3f::Unit(k), weight * std::sqrt(point_share), d[k]);
-      }
+    // The columns of the root of plane_share n nᵀ + point_share I.
+    for (int k = 0; k < 3; ++k) {
+      const Vector3f direction =
+          point_root * Vector3f::Unit(k) + (1.0f - point_root) * pair.normal[k] * pair.normal;
+      add(pair.vertex, direction, weight, direction.dot(d));
     }
   }
   if (filled > 0) flush();

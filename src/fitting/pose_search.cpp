@@ -11,8 +11,6 @@
 namespace vitruvia {
 namespace {
 
-constexpr double kSamePose_m = 0.05;  // mean distance of the joints
-
 std::vector<FoundPose> Distinct(const ShapedBody& body, const std::vector<FoundPose>& ranked,
                                 int most) {
   std::vector<FoundPose> distinct;

@@ -18,6 +18,9 @@ struct PoseHypothesis {
 std::vector<PoseHypothesis> StartHypotheses(const Matrix3<double>& world_from_front, int headings,
                                             const Eigen::VectorXd& theta);
 
+// Mean distance of the joints below which two poses are one.
+inline constexpr double kSamePose_m = 0.05;
+
 struct FoundPose {
   const PoseHypothesis* start = nullptr;
   BodyState state;

@@ -10,8 +10,7 @@
 namespace vitruvia {
 namespace {
 
-constexpr int kSideStart[kSideCount] = {kMidlineAngleCount,
-                                        int{kMidlineAngleCount} + int{kSideAngleCount}};
+constexpr int kSideStart[kSideCount] = {AngleIndex(kLeft, 0), AngleIndex(kRight, 0)};
 
 AngleRanges MakeJointLimits() {
   AngleRanges ranges;
@@ -91,6 +90,10 @@ AnatomicalPose PoseOf(const AngleVector& angles_deg) {
 const AngleRanges& JointLimits() {
   static const AngleRanges ranges = MakeJointLimits();
   return ranges;
+}
+
+AngleVector WithinLimits(const AngleVector& angles_deg) {
+  return angles_deg.cwiseMax(JointLimits().min_deg).cwiseMin(JointLimits().max_deg);
 }
 
 ShapedBody RigidShape(const BodyModel& body, int vertices) {

@@ -19,12 +19,16 @@ inline constexpr int kAngleCount = int{kMidlineAngleCount} + int{kSideCount} * i
 
 // All angles of a pose one after the other: midline, left, right; degrees.
 using AngleVector = Eigen::Matrix<double, kAngleCount, 1>;
+constexpr int AngleIndex(Side side, int side_angle) {
+  return int{kMidlineAngleCount} + int{side} * int{kSideAngleCount} + side_angle;
+}
 AngleVector AnglesOf(const AnatomicalPose& pose);
 AnatomicalPose PoseOf(const AngleVector& angles_deg);
 struct AngleRanges {
   AngleVector min_deg, max_deg;
 };
 const AngleRanges& JointLimits();
+AngleVector WithinLimits(const AngleVector& angles_deg);
 
 // A surface in the rest pose that may also change its shape: v̄ = mean + basis θ.
 struct ShapedBody {

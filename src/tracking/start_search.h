@@ -7,6 +7,7 @@
 #include "config/settings.h"
 #include "fitting/depth_target.h"
 #include "fitting/pose_search.h"
+#include "fitting/search_settings.h"
 #include "math/rigid.h"
 #include "tracking/tracker.h"
 
@@ -20,16 +21,6 @@ enum class Start {
 // Describes a method's field of that type.
 void DescribeStart(Fields& fields, Start& start);
 
-struct StartSearchSettings {
-  int headings = 8;
-  int coarse_vertices = 300, fine_vertices = 1200;
-  double angle_deviation_deg = 40.0;
-  double near_m = 0.06, far_m = 0.2;
-  double least_explained = 0.8;
-
-  void Describe(Fields& fields);
-};
-
 struct FoundStart {
   bool found = false;
   BodyState state;                  // of the best hypothesis, also where it is not trusted
@@ -42,17 +33,21 @@ struct FoundStart {
 class StartSearch {
  public:
   StartSearch(const Subject& subject, const PinholeCamera& camera, double max_depth_m,
-              const StartSearchSettings& settings);
+              const PoseSearchSettings& settings);
 
-  // The frame's measurements are the person's.
-  FoundStart Find(const DepthImage& depth);
+  // The frame's measurements are the person's. Where joints are known the search begins at them.
+  FoundStart Find(const DepthImage& depth, const KnownJoints& known);
 
  private:
-  StartSearchSettings settings_;
+  SearchOutcome Search(DepthTarget& coarse_target, DepthTarget& fine_target,
+                       const KnownJoints& known);
+
+  PoseSearchSettings settings_;
   PinholeCamera camera_;
   double max_depth_m_;
   ShapedBody fine_body_, coarse_body_;
   PoseFit fine_{fine_body_}, coarse_{coarse_body_};
+  std::vector<PoseHypothesis> hypotheses_;  // of the search at hand
 };
 
 // The message of the first frame that is tracked: how its start was found, and how it ended.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "body/body_model.h"
+#include "fitting/joint_fit.h"
 #include "geometry/camera.h"
 #include "geometry/image.h"
 #include "math/rigid.h"
@@ -20,6 +21,8 @@ struct DepthFrame {
   int index = 0;
   double time_s = 0.0;
   DepthImage depth;  // metres along z, 0 = no measurement; the body only, background removed
+  // Joints that may be known of the first frame, camera frame; a start by search begins there.
+  KnownJoints known{};
 };
 
 enum class Outcome {

@@ -23,6 +23,11 @@ TEST(StartPoses, AreWithinTheJointLimits) {
   }
 }
 
+TEST(StartPoses, LimbsAreWithinTheJointLimits) {
+  for (const SideAngles& pose : ArmPoses()) ExpectWithin(SideJoints(), pose, "arm");
+  for (const SideAngles& pose : LegPoses()) ExpectWithin(SideJoints(), pose, "leg");
+}
+
 TEST(StartPoses, TPoseIsTheRestPose) {
   JointPose pose;
   pose.local_rotations.fill(Matrix3<double>::Identity());

@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "fitting/depth_target.h"
+#include "fitting/depth_search.h"
+#include "fitting/joint_fit.h"
 #include "fitting/surface_target.h"
 #include "geometry/zbuffer.h"
 #include "math/angles.h"
@@ -12,7 +13,10 @@
 namespace vitruvia {
 namespace {
 
-BodyModel Person() { return Refine(MakeControlBody(BodySettings()), {.subdivisions = 2}); }
+const BodyModel& Person() {
+  static const BodyModel person = Refine(MakeControlBody(BodySettings()), {.subdivisions = 2});
+  return person;
+}
 
 // Striding, the right forearm raised, turned by `heading_deg`; y up.
 BodyState Striding(double heading_deg) {
@@ -36,7 +40,7 @@ std::vector<Vector3f> Posed(const BodyModel& body, const ShapedBody& shaped,
 }
 
 TEST(PoseSearch, FindsAPersonOnASurface) {
-  const BodyModel body = Person();
+  const BodyModel& body = Person();
   const ShapedBody fine = RigidShape(body, 1500), coarse = Coarser(fine, 400);
   PoseFit fine_fit(fine), coarse_fit(coarse);
   const BodyState truth = Striding(130.0);
@@ -57,28 +61,72 @@ TEST(PoseSearch, FindsAPersonOnASurface) {
   EXPECT_GT(found.margin, 0.5);
 }
 
-TEST(PoseSearch, FindsAPersonInADepthFrame) {
-  const BodyModel body = Person();
-  const ShapedBody fine = RigidShape(body, 1200), coarse = Coarser(fine, 300);
+// Seen by the default camera, 2.6 m away.
+BodyState BeforeCamera(double heading_deg) {
+  BodyState state = Striding(heading_deg);
+  state.rotation = Vector3d(1.0, -1.0, -1.0).asDiagonal() * state.rotation;
+  state.pelvis_position = {0.1, 0.2, 2.6};
+  return state;
+}
+
+DepthImage FrameOf(const BodyModel& body, const ShapedBody& shaped, const BodyState& state) {
+  ZBuffer zbuffer{PinholeCamera()};
+  return zbuffer.Render(Posed(body, shaped, state), body.rest.triangles);
+}
+
+TEST(DepthSearch, FindsAPersonInADepthFrame) {
+  const BodyModel& body = Person();
+  const ShapedBody fine = RigidShape(body, 900), coarse = Coarser(fine, 300);
   PoseFit fine_fit(fine), coarse_fit(coarse);
-  const Matrix3<double> facing = Vector3d(1.0, -1.0, -1.0).asDiagonal();
-  BodyState truth = Striding(30.0);
-  truth.rotation = facing * truth.rotation;
-  truth.pelvis_position = {0.1, 0.2, 2.6};
-  const PinholeCamera camera;
-  ZBuffer zbuffer(camera);
-  const DepthImage depth = zbuffer.Render(Posed(body, fine, truth), body.rest.triangles);
-  DepthTarget coarse_target(depth, camera, {80, 1500, 300});
-  DepthTarget fine_target(depth, camera, {160, 4000, 1000});
-  const std::vector<PoseHypothesis> hypotheses = StartHypotheses(facing, 8, Eigen::VectorXd());
-  const SearchOutcome found =
-      SearchPose(hypotheses,
-                 {{&coarse_fit, &coarse_target, {5, 0.6, 0.3, 1.0, false}, 16},
-                  {&coarse_fit, &coarse_target, {8, 0.3, 0.12, 0.3, false}, 5},
-                  {&fine_fit, &fine_target, {12, 0.15, 0.05, 0.05, false}, 2}},
-                 FitPriors(), NearFar());
-  EXPECT_LT(MeanJointDistance(fine, found.best.state, truth), 0.03);
-  EXPECT_GT(found.best.distance.target_explained, 0.95);
+  const BodyState truth = BeforeCamera(30.0);
+  const DepthImage depth = FrameOf(body, fine, truth);
+  DepthTarget coarse_target(depth, PinholeCamera(), {80, 1500, 300});
+  DepthTarget fine_target(depth, PinholeCamera(), {160, 4000, 600});
+  const std::vector<PoseHypothesis> hypotheses =
+      StartHypotheses(Vector3d(1.0, -1.0, -1.0).asDiagonal(), 8, Eigen::VectorXd());
+  const SearchOutcome found = SearchDepth(
+      hypotheses, {&coarse_fit, &fine_fit, &coarse_target, &fine_target}, FitPriors(), NearFar());
+  EXPECT_LT(MeanJointDistance(fine, found.best.state, truth), 0.02);
+  EXPECT_GT(found.best.distance.target_explained, 0.97);
+}
+
+TEST(DepthSearch, ImageDistanceGrowsWithTheWayFromTheTruth) {
+  const BodyModel& body = Person();
+  const ShapedBody fine = RigidShape(body, 1200);
+  const BodyState truth = BeforeCamera(0.0);
+  DepthTarget target(FrameOf(body, fine, truth), PinholeCamera(), {160, 4000, 600});
+  PosedBody posed(fine);
+  const auto distance = [&](double aside_m, double behind_m) {
+    BodyState state = truth;
+    state.pelvis_position += Vector3d(aside_m, 0.0, behind_m);
+    posed.Set(state);
+    return target.ImageDistance(posed, 0.15);
+  };
+  EXPECT_LT(distance(0.0, 0.0), 0.03);
+  EXPECT_NEAR(distance(0.0, 0.1), 0.1, 0.03);  // along the rays, but for the outline
+  EXPECT_GT(distance(0.05, 0.0), 1.5 * distance(0.0, 0.0));
+  EXPECT_NEAR(distance(0.9, 0.0), 0.3, 0.01);  // beside the frame's person: both count as far
+}
+
+TEST(JointFit, FindsTheStateOfKnownJoints) {
+  const ShapedBody body = RigidShape(Person(), 300);
+  const BodyState truth = Striding(130.0);
+  const std::vector<Vector3d> joints = PosedJoints(body.skeleton, WorldFromRest(body, truth));
+  KnownJoints known{{}, 0.005};
+  for (int j = 0; j < kBoneCount; ++j) known.joints.push_back({j, joints[j]});
+  const BodyState fitted = FittedToJoints(body, BodyState(), known, 40.0);
+  EXPECT_LT(MeanJointDistance(body, fitted, truth), 0.01);
+}
+
+TEST(JointFit, OneJointLeavesTheOthersInTheStartPose) {
+  const ShapedBody body = RigidShape(Person(), 300);
+  const KnownJoints known{{{static_cast<int>(BoneId::kHead), Vector3d(1.0, 2.0, 3.0)}}, 0.02};
+  const BodyState fitted = FittedToJoints(body, BodyState(), known, 40.0);
+  EXPECT_LT((PosedJoints(body.skeleton, WorldFromRest(body, fitted))[known.joints[0].joint] -
+             known.joints[0].position)
+                .norm(),
+            0.01);
+  EXPECT_LT(fitted.angles_deg.cwiseAbs().maxCoeff(), 1.0);
 }
 
 }  // namespace

@@ -188,8 +188,8 @@ const std::map<std::string, std::string>& WithoutEffect() {
   static const std::map<std::string, std::string> reasons = {
       {"fit.rasterizer", "both render the same depth of a closed mesh"},
       {"start_search.headings", "the body looks along a heading that every number of them has"},
-      {"start_search.near_m", "decides only whether the pose is trusted, and this one is"},
-      {"start_search.far_m", "decides only whether the pose is trusted, and this one is"},
+      {"start_search.near_m", "the poses keep their order, and the best one is trusted"},
+      {"start_search.far_m", "the poses keep their order, and the best one is trusted"},
       {"start_search.least_explained", "decides only whether the pose is trusted, and this one is"},
       {"fit.association", "a kd-tree and a search over all points find the same nearest point"},
       {"limit_weight", "no joint exceeds its range by more than the slack"},

@@ -1,4 +1,4 @@
-// Trackers that search for their first pose (all 200 starts: `vitruvia_bench out/bench starts`).
+// Trackers that search for their first pose (a hundred starts: `vitruvia_bench out/bench starts`).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

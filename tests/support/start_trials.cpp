@@ -133,11 +133,12 @@ std::vector<StartPosture> StartPostures() {
 
 std::vector<StartTrial> AllStartTrials() {
   std::vector<StartTrial> trials;
-  constexpr int kPeople = 5, kPostures = 10;
+  constexpr int kPeople = 5, kPostures = 10, kHeadings = 4;
   for (int person = 0; person < kPeople; ++person) {
     for (int posture = 0; posture < kPostures; ++posture) {
-      for (const double heading_deg : {0.0, 90.0, 180.0, 270.0}) {
-        trials.push_back({person, posture, heading_deg, static_cast<int>(trials.size())});
+      for (int heading = 0; heading < kHeadings; ++heading) {
+        trials.push_back({person, posture, 90.0 * heading, static_cast<int>(trials.size()),
+                          (person + posture + heading) % 2 == 0});
       }
     }
   }

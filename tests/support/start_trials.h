@@ -32,8 +32,10 @@ struct StartTrial {
   int person = 0, posture = 0;
   double heading_deg = 0.0;  // 0: faces the camera
   int seed = 0;              // of deviations from the posture and heading, distance, noise
+  bool is_tuned_on = false;  // the search's constants were chosen by it
 };
-// All people × postures × four headings.
+// All people × postures × four headings. Of each person and posture two opposite headings are tuned
+// on, in turn the front and back and the two sides.
 std::vector<StartTrial> AllStartTrials();
 
 struct StartResult {

@@ -50,54 +50,16 @@ void RegistrationSettings::Describe(Fields& f) {
             .max = 1.0,
             .origin = Origin::kGuessed,
             .source = "statures vary by 4 % among adults; children are outside of most spaces"});
-  f.Integer("headings", headings,
-            {.meaning = "directions, evenly spaced, in which each start pose of the search faces",
-             .min = 1,
-             .max = 72,
-             .origin = Origin::kGuessed});
   f.Choice("clothing", clothing, {{"none", Clothing::kNone}, {"loose", Clothing::kLoose}},
            {.meaning = "what the person wears; loose: the body may lie inside of the surface at a "
                        "lower cost than outside",
             .origin = Origin::kGuessed});
-  f.Integer("coarse_vertices", coarse_vertices,
-            {.meaning = "vertices of the body while hypotheses are compared",
-             .min = 100,
-             .max = 100000,
-             .origin = Origin::kGuessed});
-  f.Integer("fine_vertices", fine_vertices,
-            {.meaning = "vertices of the body while the best hypotheses are refined",
-             .min = 100,
-             .max = 100000,
-             .origin = Origin::kGuessed});
+  search.Describe(f);
   f.Integer("surface_points", surface_points,
             {.meaning = "points, evenly spread, that stand for a surface",
              .min = 500,
              .max = 1000000,
              .origin = Origin::kGuessed});
-  f.Number("angle_deviation_deg", angle_deviation_deg,
-           {.meaning = "standard deviation of a joint angle from its start pose",
-            .unit = "deg",
-            .min = 1.0,
-            .max = 180.0,
-            .origin = Origin::kGuessed});
-  f.Number("near_m", near_m,
-           {.meaning = "distance within which body and surface explain each other",
-            .unit = "m",
-            .min = 0.001,
-            .max = 1.0,
-            .origin = Origin::kGuessed});
-  f.Number("far_m", far_m,
-           {.meaning = "distance beyond which body and surface are equally far from each other",
-            .unit = "m",
-            .min = 0.001,
-            .max = 1.0,
-            .origin = Origin::kGuessed});
-  f.Number("least_explained", least_explained,
-           {.meaning = "share of the surface, and of the body, that must be explained for the "
-                       "surface to be a person's",
-            .min = 0.0,
-            .max = 1.0,
-            .origin = Origin::kGuessed});
   f.Number("most_distance_m", most_distance_m,
            {.meaning = "largest mean distance of body and surface for the surface to be a person's",
             .unit = "m",
@@ -116,8 +78,8 @@ Registrar::Registrar(const ShapeSpace& space, const KnownAttributes& known,
   }
   expected_ = ShapeOfSize(space, known, settings.components, kMostUnusual);
   const ShapedBody whole = WithScale(space, settings.components, settings.scale_deviation);
-  fine_body_ = Coarser(whole, settings.fine_vertices);
-  coarse_body_ = Coarser(whole, settings.coarse_vertices);
+  fine_body_ = Coarser(whole, settings.search.fine_vertices);
+  coarse_body_ = Coarser(whole, settings.search.coarse_vertices);
   fine_ = std::make_unique<PoseFit>(fine_body_);
   coarse_ = std::make_unique<PoseFit>(coarse_body_);
 }
@@ -146,16 +108,16 @@ Eigen::VectorXd Registrar::StartShape(const PoseHypothesis& hypothesis, double h
 Registration Registrar::Search(const Matrix3<double>& world_from_front, double height_m,
                                FitTarget& coarse_target, FitTarget& fine_target) {
   std::vector<PoseHypothesis> hypotheses =
-      StartHypotheses(world_from_front, settings_.headings, Eigen::VectorXd());
+      StartHypotheses(world_from_front, settings_.search.headings, Eigen::VectorXd());
   for (PoseHypothesis& h : hypotheses) h.state.theta = StartShape(h, height_m);
   const std::vector<SearchLevel> levels{
       {coarse_.get(), &coarse_target, {6, 0.5, 0.25, 0.5, false}, 20},
       {coarse_.get(), &coarse_target, {10, 0.3, 0.12, 0.2, true}, 6},
       {fine_.get(), &fine_target, {15, 0.15, 0.05, 0.05, true}, 2}};
   FitPriors priors;
-  priors.angle_deviation_deg = settings_.angle_deviation_deg;
+  priors.angle_deviation_deg = settings_.search.angle_deviation_deg;
   const SearchOutcome found =
-      SearchPose(hypotheses, levels, priors, {settings_.near_m, settings_.far_m});
+      SearchPose(hypotheses, levels, priors, {settings_.search.near_m, settings_.search.far_m});
   Registration registration{found.best.state, found.best.distance, found.margin,
                             fmt::format("{}, heading {:.0f} degrees", found.best.start->pose,
                                         found.best.start->heading_deg),
@@ -195,14 +157,14 @@ Registration Registrar::Follow(const TriangleMesh& surface, const BodyState& nea
   SurfaceTarget target(SampleSurface(surface, settings_.surface_points), kFineSeekers,
                        settings_.clothing);
   FitPriors priors;
-  priors.angle_deviation_deg = settings_.angle_deviation_deg;
+  priors.angle_deviation_deg = settings_.search.angle_deviation_deg;
   priors.angles_deg = near.angles_deg;
   priors.theta = near.theta;
   Registration registration;
   registration.state = coarse_->Run(target, near, {6, 0.3, 0.1, 0.2, false}, priors);
   registration.state = fine_->Run(target, registration.state, {6, 0.1, 0.05, 0.05, false}, priors);
   registration.distance =
-      fine_->Measure(target, registration.state, {settings_.near_m, settings_.far_m});
+      fine_->Measure(target, registration.state, {settings_.search.near_m, settings_.search.far_m});
   registration.start = "the frame before";
   Judge(registration);
   return registration;
@@ -210,16 +172,18 @@ Registration Registrar::Follow(const TriangleMesh& surface, const BodyState& nea
 
 void Registrar::Judge(Registration& registration) const {
   const MutualDistance& d = registration.distance;
-  if (d.target_explained >= settings_.least_explained &&
-      d.body_explained >= settings_.least_explained && d.mean_m() <= settings_.most_distance_m) {
+  if (d.target_explained >= settings_.search.least_explained &&
+      d.body_explained >= settings_.search.least_explained &&
+      d.mean_m() <= settings_.most_distance_m) {
     return;
   }
   registration.problem = fmt::format(
       "no person: the body explains {:.0f} % of the surface, and the surface {:.0f} % of the body "
       "(expected at least {:.0f} % within {:g} m); mean distance {:.1f} mm (expected at most "
       "{:.1f} mm). Is it one whole person, y up, in metres?",
-      100.0 * d.target_explained, 100.0 * d.body_explained, 100.0 * settings_.least_explained,
-      settings_.near_m, 1e3 * d.mean_m(), 1e3 * settings_.most_distance_m);
+      100.0 * d.target_explained, 100.0 * d.body_explained,
+      100.0 * settings_.search.least_explained, settings_.search.near_m, 1e3 * d.mean_m(),
+      1e3 * settings_.most_distance_m);
 }
 
 BodyModel Registrar::Body(const Eigen::VectorXd& theta) const {

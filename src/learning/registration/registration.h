@@ -11,6 +11,7 @@
 
 #include "config/settings.h"
 #include "fitting/pose_search.h"
+#include "fitting/search_settings.h"
 #include "fitting/surface_target.h"
 #include "geometry/camera.h"
 #include "geometry/image.h"
@@ -21,13 +22,14 @@ namespace vitruvia {
 struct RegistrationSettings {
   int components = 10;
   double scale_deviation = 0.15;
-  int headings = 8;
   Clothing clothing = Clothing::kLoose;
-  int coarse_vertices = 500, fine_vertices = 2000;
+  PoseSearchSettings search{.headings = 8,
+                            .coarse_vertices = 500,
+                            .fine_vertices = 2000,
+                            .near_m = 0.05,
+                            .far_m = 0.15,
+                            .least_explained = 0.85};
   int surface_points = 12000;
-  double angle_deviation_deg = 40.0;
-  double near_m = 0.05, far_m = 0.15;
-  double least_explained = 0.85;
   double most_distance_m = 0.04;
 
   void Describe(Fields& fields);

@@ -166,7 +166,7 @@ void Dynamic::ReadClouds(const DepthFrame& frame) {
 void Dynamic::FindFirstPose(const DepthFrame& frame) {
   Session& s = *session_;
   if (!s.start_search) return Place();
-  const FoundStart found = s.start_search->Find(frame.depth);
+  const FoundStart found = s.start_search->Find(frame.depth, frame.known);
   s.start_message = found.message;
   s.placed = found.found;
   if (!found.found) return;

@@ -63,8 +63,8 @@ struct Settings {
   PoseSettings pose;
   ShapeSettings shape;
   Start start = Start::kRestPose;
-  PlacementSettings placement;       // of start kRestPose
-  StartSearchSettings start_search;  // of start kSearch
+  PlacementSettings placement;      // of start kRestPose
+  PoseSearchSettings start_search;  // of start kSearch
   double max_depth_m = 8.0;
   double lost_below = 0.3;
   int threads = 2;

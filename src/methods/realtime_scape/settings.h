@@ -158,8 +158,8 @@ struct Settings {
   StoppingSettings stopping;
   SolverSettings solver;
   Start start = Start::kRestPose;
-  PlacementSettings placement;       // of start kRestPose
-  StartSearchSettings start_search;  // of start kSearch
+  PlacementSettings placement;      // of start kRestPose
+  PoseSearchSettings start_search;  // of start kSearch
   LimbSettings limbs;
   RelocalizationSettings recovery;
   double lost_below = 0.3;

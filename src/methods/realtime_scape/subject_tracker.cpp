@@ -32,7 +32,7 @@ TrackResult SubjectTracker::TrackFrame(const DepthFrame& frame) {
         {Outcome::kNoData, "the frame holds no measurement; the pose is carried over"});
   }
   const bool is_first = !history_;
-  if (is_first) history_ = FirstPose(observation);
+  if (is_first) history_ = FirstPose(observation, frame.known);
   if (!history_) return CarryOver({Outcome::kLost, start_message_});
   const Prediction prediction = PredictPose(model_, *history_, settings_.motion);
   clock_.Lap(Step::kCloudTree);
@@ -52,9 +52,10 @@ TrackResult SubjectTracker::TrackFrame(const DepthFrame& frame) {
 }
 
 // Nothing if the subject was searched for and not found.
-std::optional<PoseHistory> SubjectTracker::FirstPose(const Observation& observation) {
+std::optional<PoseHistory> SubjectTracker::FirstPose(const Observation& observation,
+                                                     const KnownJoints& known) {
   if (!start_search_) return Place(observation.cloud);
-  const FoundStart start = start_search_->Find(*observation.depth);
+  const FoundStart start = start_search_->Find(*observation.depth, known);
   start_message_ = start.message;
   clock_.Lap(Step::kRelocalize);
   if (!start.found) return {};

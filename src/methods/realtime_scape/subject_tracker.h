@@ -24,7 +24,7 @@ class SubjectTracker {
     std::string message;
   };
 
-  std::optional<PoseHistory> FirstPose(const Observation& observation);
+  std::optional<PoseHistory> FirstPose(const Observation& observation, const KnownJoints& known);
   PoseHistory Place(const PointCloud& cloud) const;
   FitSummary TakeBetterPose(const Observation& observation, FitSummary fit, bool is_first);
   FitSummary TakeFoundLimb(const Observation& observation, FitSummary fit);

@@ -1,0 +1,48 @@
+#include "fitting/search_settings.h"
+
+namespace vitruvia {
+
+void PoseSearchSettings::Describe(Fields& f) {
+  f.Integer("headings", headings,
+            {.meaning = "directions, evenly spaced, in which each start pose of the search faces",
+             .min = 1,
+             .max = 72,
+             .origin = Origin::kGuessed});
+  f.Integer("coarse_vertices", coarse_vertices,
+            {.meaning = "vertices of the body while start poses are compared",
+             .min = 100,
+             .max = 100000,
+             .origin = Origin::kGuessed});
+  f.Integer("fine_vertices", fine_vertices,
+            {.meaning = "vertices of the body while the best start poses are refined",
+             .min = 100,
+             .max = 100000,
+             .origin = Origin::kGuessed});
+  f.Number("angle_deviation_deg", angle_deviation_deg,
+           {.meaning = "standard deviation of a joint angle from its start pose",
+            .unit = "deg",
+            .min = 1.0,
+            .max = 180.0,
+            .origin = Origin::kGuessed});
+  f.Number("near_m", near_m,
+           {.meaning = "distance within which the body and what is seen explain each other",
+            .unit = "m",
+            .min = 0.001,
+            .max = 1.0,
+            .origin = Origin::kGuessed});
+  f.Number("far_m", far_m,
+           {.meaning = "distance beyond which the body and what is seen are equally far from each "
+                       "other",
+            .unit = "m",
+            .min = 0.001,
+            .max = 1.0,
+            .origin = Origin::kGuessed});
+  f.Number("least_explained", least_explained,
+           {.meaning = "share of what is seen, and of the body that can be judged, that must be "
+                       "explained for a person to be found",
+            .min = 0.0,
+            .max = 1.0,
+            .origin = Origin::kGuessed});
+}
+
+}  // namespace vitruvia
