@@ -1,6 +1,8 @@
 // Tells from the areas that model and frame do not account for (body_areas.h) that a frame is lost.
 #pragma once
 
+#include <string>
+
 #include "config/settings.h"
 #include "tracking/body_areas.h"
 
@@ -8,9 +10,9 @@ namespace vitruvia {
 
 struct AreaWatchSettings {
   double lost_above = 0.0;  // 0: areas are not watched
-  double found_below = 0.04;
+  double found_below = 0.03;
   int found_frames = 2;
-  double reach_m = 0.5;
+  double reach_m = 0.3;
   double other_body_share = 0.5;
   int search_pause = 5;  // frames
   double margin = 0.02;
@@ -32,7 +34,7 @@ class AreaWatch {
   // Whether enough of the frame is out of the model's reach to be another body, the subject's own
   // perhaps, and no search has looked there lately: each that finds nothing doubles the pause.
   bool is_search_due() const { return is_search_due_; }
-  double disagreement() const { return disagreement_; }
+  std::string message() const;  // why a frame is lost, for a person
 
  private:
   AreaWatchSettings settings_;

@@ -90,6 +90,12 @@ BodyAreas BodyAreaMeter::Measure(const std::vector<Vector3f>& vertices,
   return areas;
 }
 
+DepthImage BodyAreaMeter::StrayDepth(const DepthImage& depth) const {
+  DepthImage stray(depth.width(), depth.height());
+  for (const int pixel : stray_pixels_) stray.pixels()[pixel] = depth.pixels()[pixel];
+  return stray;
+}
+
 // A third of each adjoining triangle's image, at the vertex's depth; of those that face the camera.
 void BodyAreaMeter::MeasureVertexAreas(const std::vector<Vector3f>& vertices) {
   const auto fx = static_cast<float>(camera_.fx), fy = static_cast<float>(camera_.fy);
@@ -148,6 +154,7 @@ void BodyAreaMeter::AddPoints(const BoneTransforms& camera_from_rest, const Dept
     from[j] = camera_from_rest[j] * skeleton_.joints[j];
     to[j] = camera_from_rest[j] * skeleton_.tips[j];
   }
+  stray_pixels_.clear();
   for (const int i : unexplained_) {
     const Vector3d point = cloud_.points[i].cast<double>();
     int nearest = -1;
@@ -158,6 +165,7 @@ void BodyAreaMeter::AddPoints(const BoneTransforms& camera_from_rest, const Dept
       nearest_squared = squared;
       nearest = j;
     }
+    if (nearest < 0) stray_pixels_.push_back(cloud_.pixels[i]);
     double& sum = nearest < 0 ? areas.stray_m2 : areas.bones[nearest].unexplained_m2;
     sum += area_m2(cloud_.points[i]);
   }

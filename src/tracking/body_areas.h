@@ -14,7 +14,8 @@ namespace vitruvia {
 
 // Areas across the line of sight, m². What the camera would see of a bone's skin is confirmed by
 // the frame, or contradicted (the frame shows something farther away, or nothing), or covered (by
-// something nearer). Skin outside of the image counts nowhere.
+// something nearer). Skin outside of the image counts nowhere, nor do vertices on a silhouette
+// whose pixel the rendered model leaves empty.
 struct BoneAreas {
   double confirmed_m2 = 0.0, contradicted_m2 = 0.0, covered_m2 = 0.0;
   double unexplained_m2 = 0.0;  // of the points near this bone that the model does not explain
@@ -48,6 +49,8 @@ class BodyAreaMeter {
   // `vertices`: the subject's surface in the pose `camera_from_rest` (camera frame, metres).
   BodyAreas Measure(const std::vector<Vector3f>& vertices, const BoneTransforms& camera_from_rest,
                     const DepthImage& depth, const NearnessSettings& nearness);
+  // Of the frame last measured, the depth of the points out of every bone's reach alone.
+  DepthImage StrayDepth(const DepthImage& depth) const;
 
  private:
   void MeasureVertexAreas(const std::vector<Vector3f>& vertices);
@@ -68,6 +71,7 @@ class BodyAreaMeter {
   std::vector<Vector3f> projected_;  // u, v, z
   std::vector<float> vertex_area_m2_;
   std::vector<int> visible_, unexplained_;
+  std::vector<int> stray_pixels_;
   PointCloud cloud_;
 };
 

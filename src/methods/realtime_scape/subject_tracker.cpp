@@ -150,9 +150,7 @@ SubjectTracker::Ending SubjectTracker::EndingOf(const FitSummary& fit) const {
                         100.0 * presence, 100.0 * loss_detector_.usual().presence())};
   }
   if (watch_ && watch_->verdict.is_lost()) {
-    return {Outcome::kLost,
-            fmt::format("model and frame do not account for {:.0f} % of the observed area",
-                        100.0 * watch_->verdict.disagreement())};
+    return {Outcome::kLost, watch_->verdict.message()};
   }
   if (!fit.solved) {
     return {Outcome::kLost,
