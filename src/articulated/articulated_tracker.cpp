@@ -69,7 +69,7 @@ struct ArticulatedTracker::Session {
   }
 
   TrackResult Track(const DepthFrame& frame);
-  void FindFirstState(const Observation& observation);
+  void FindFirstState(const Observation& observation, const KnownJoints& known);
   PoseFitting Better(const Observation& observation, PoseFitting fit, bool is_first);
   std::optional<PoseFitting> Search(const Observation& observation, const PoseFitting& current);
   Ending EndingOf(const PoseFitting& fit) const;
@@ -121,7 +121,7 @@ TrackResult ArticulatedTracker::Session::Track(const DepthFrame& frame) {
   term->Observe(observation);
   clock.Lap(TimedStep::kObserve);
   const bool is_first = !last;
-  if (is_first) FindFirstState(observation);
+  if (is_first) FindFirstState(observation, frame.known);
   if (!last) return CarriedOver({Outcome::kLost, start_message});
 
   const StoppingSettings& stopping = settings.stopping;
@@ -138,10 +138,11 @@ TrackResult ArticulatedTracker::Session::Track(const DepthFrame& frame) {
 }
 
 // Leaves `last` empty if the subject was searched for and not found.
-void ArticulatedTracker::Session::FindFirstState(const Observation& observation) {
+void ArticulatedTracker::Session::FindFirstState(const Observation& observation,
+                                                 const KnownJoints& known) {
   constexpr double kVisibleWithin_m = 0.01;
   if (start_search) {
-    const FoundStart found = start_search->Find(*observation.depth);
+    const FoundStart found = start_search->Find(*observation.depth, known);
     start_message = found.message;
     if (found.found) last = found.state;
   } else {

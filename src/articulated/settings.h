@@ -51,7 +51,7 @@ struct CommonSettings {
   double near_m = 0.05;
   Start start = Start::kRestPose;
   PlacementSettings placement;
-  StartSearchSettings start_search;
+  PoseSearchSettings start_search;
   RelocalizationSettings recovery;
   double lost_below = 0.3;
   int threads = 1;

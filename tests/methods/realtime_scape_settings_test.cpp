@@ -108,6 +108,7 @@ const std::map<std::string, Change>& Changes() {
   const Json cg = At("solver.kind", "cg");
   const Json free = At("free_space_weight", 1.0);
   const Json search = At("start", "search");
+  const Json watch = At("watch.lost_above", 0.01);
   static const std::map<std::string, Change> changes = {
       {"cloud.stride", {3}},
       {"cloud.max_depth_m", {2.8}},
@@ -178,6 +179,9 @@ const std::map<std::string, Change>& Changes() {
       {"recovery.margin", {1.0, {}, true}},
       {"recovery.num_remembered", {1, At("recovery.min_pose_distance_deg", 2.0), true}},
       {"recovery.min_pose_distance_deg", {2.0, {}, true}},
+      {"watch.lost_above", {1e-6}},
+      {"watch.found_below", {0.5, watch}},
+      {"watch.reach_m", {0.01, watch}},
       {"lost_below", {1.0}},
   };
   return changes;
@@ -199,7 +203,11 @@ const std::map<std::string, std::string>& WithoutEffect() {
       {"limbs.num_swivels", "no limb is searched"},
       {"limbs.num_refined", "no limb is searched"},
       {"recovery.least_usual", "the body agrees fully before it is lost: loss_detector_test"},
-      {"recovery.part_gap_m", "the frames show one thing at a time"}};
+      {"recovery.part_gap_m", "the frames show one thing at a time"},
+      {"watch.found_frames", "the arm is not found again before the last frame: body_areas_test"},
+      {"watch.other_body_share", "no other body is there: body_areas_test"},
+      {"watch.search_pause", "no other body is there: body_areas_test"},
+      {"watch.margin", "no other body is there: recovery_test"}};
   return reasons;
 }
 

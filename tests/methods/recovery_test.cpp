@@ -39,6 +39,30 @@ double ErrorAfterReturn(int patience) {
   return body.second.MeanError(body.Track(tracker).back(), ReturningBody::kAngle_rad);
 }
 
+// A post that shows more area than the body stands beside it from the first frame on.
+double ErrorBesidePost(const Settings& settings) {
+  ArmStage stage(1, SkinLinear, Rigidd{Vector3d(1, -1, -1).asDiagonal(), {0.5, 0.9, 2.8}});
+  RealtimeScape tracker(settings);
+  tracker.Start(stage.body, stage.camera);
+  TrackResult result;
+  for (int i = 0; i < 8; ++i) {
+    DepthFrame frame = stage.Frame(i, 0.02 * i);
+    for (int v = 0; v < frame.depth.height(); ++v) {
+      for (int u = 5; u < 75; ++u) frame.depth(u, v) = 2.8f;
+    }
+    result = tracker.TrackFrame(frame);
+  }
+  return stage.MeanError(result, 0.02 * 7);
+}
+
+TEST(Recovery, ABodyIsFoundBesideAPostThatTheFirstPoseWasFittedTo) {
+  Settings settings;
+  EXPECT_GT(ErrorBesidePost(settings), 0.5);
+  settings.recovery.part_gap_m = 0.1;
+  settings.watch.lost_above = 0.065;
+  EXPECT_LT(ErrorBesidePost(settings), 0.05);
+}
+
 double StepMs(const TrackResult& result, RealtimeScapeStep step) {
   return result.step_ms.at(static_cast<std::size_t>(step)).value;
 }

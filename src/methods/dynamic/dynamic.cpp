@@ -56,7 +56,11 @@ struct Dynamic::Session {
                coarse_vertices.empty() ? mesh.weights : Subset(mesh, coarse_vertices).weights),
         team(settings.threads) {
     if (!coarse_vertices.empty()) coarse.emplace(Subset(mesh, coarse_vertices), view);
-    if (settings.start == Start::kSearch) {
+    if (settings.watch.lost_above > 0.0) {
+      watch.emplace(Watch{{subject, view, 1, settings.max_depth_m, settings.watch.reach_m},
+                          AreaWatch(settings.watch)});
+    }
+    if (settings.start == Start::kSearch || watch) {
       start_search.emplace(subject, view, settings.max_depth_m, settings.start_search);
     }
     theta = Eigen::VectorXd::Zero(tree.joint_count());
@@ -64,6 +68,12 @@ struct Dynamic::Session {
     root_joints.assign(tree.joint_count(), 0);
     for (const int joint : tree.ChainOf(static_cast<int>(BoneId::kPelvis))) root_joints[joint] = 1;
   }
+
+  // What watches the areas, if the settings ask for it.
+  struct Watch {
+    BodyAreaMeter meter;
+    AreaWatch verdict;
+  };
 
   Level& pose_level() { return coarse ? *coarse : fine; }
 
@@ -91,6 +101,7 @@ struct Dynamic::Session {
   PoseSolver solver;
   WorkerTeam team;
   std::optional<StartSearch> start_search;
+  std::optional<Watch> watch;
   std::vector<char> all_joints, root_joints;  // per joint: may it move?
 
   // Carried from frame to frame.
@@ -140,10 +151,11 @@ TrackResult Dynamic::TrackFrame(const DepthFrame& frame) {
       fit = FitPose(is_first);
       FitShape(is_first, fit);
       session_->fine.PoseVertices(session_->pose, session_->team, session_->clock);
+      if (session_->watch) WatchAreas(frame);
     }
   }
   TrackResult result = Result(fit);
-  if (is_first && session_->placed && session_->start_search) {
+  if (is_first && session_->placed && settings_.start == Start::kSearch) {
     result.message = WithStart(session_->start_message, result.message);
   }
   return result;
@@ -165,7 +177,7 @@ void Dynamic::ReadClouds(const DepthFrame& frame) {
 // Leaves the session without a place if the subject was searched for and not found.
 void Dynamic::FindFirstPose(const DepthFrame& frame) {
   Session& s = *session_;
-  if (!s.start_search) return Place();
+  if (settings_.start == Start::kRestPose) return Place();
   const FoundStart found = s.start_search->Find(frame.depth, frame.known);
   s.start_message = found.message;
   s.placed = found.found;
@@ -174,6 +186,47 @@ void Dynamic::FindFirstPose(const DepthFrame& frame) {
   s.camera_from_start = start.camera_from_start;
   s.theta = std::move(start.theta);
   s.clock.Lap(TimedStep::kSolve);
+}
+
+// Judges the frame by areas, and takes a pose out of the current one's reach if it looks more like
+// the subject. The shape stays.
+void Dynamic::WatchAreas(const DepthFrame& frame) {
+  Session& s = *session_;
+  const BodyAreas here = MeasureAreas(frame.depth);
+  s.watch->verdict.Assess(here);
+  if (!s.watch->verdict.is_search_due()) return;
+  const FoundStart found = s.start_search->Find(s.watch->meter.StrayDepth(frame.depth), {});
+  const Rigidd place_before = s.camera_from_start;
+  const Eigen::VectorXd theta_before = s.theta;
+  const auto take = [&](const Rigidd& camera_from_start, const Eigen::VectorXd& theta) {
+    s.camera_from_start = camera_from_start;
+    s.theta = theta;
+    s.tree.Pose(s.camera_from_start, s.theta, s.pose);
+    s.fine.PoseVertices(s.pose, s.team, s.clock);
+  };
+  const TreeStart start = StartFrom(s.tree, found.camera_from_rest);
+  take(start.camera_from_start, start.theta);
+  const BodyAreas there = MeasureAreas(frame.depth);
+  if (there.overlap() > here.overlap() + settings_.watch.margin) {
+    s.theta_before = s.theta;
+    s.watch->verdict.NoteFound(there);
+  } else {
+    take(place_before, theta_before);
+  }
+  s.clock.Lap(TimedStep::kSolve);
+}
+
+// As near as the tracker's own cutoff counts as explained.
+BodyAreas Dynamic::MeasureAreas(const DepthImage& depth) {
+  constexpr float kNear_m = 0.05f;
+  Session& s = *session_;
+  std::vector<Vector3f> vertices(s.subject_vertices);
+  for (int v = 0; v < s.subject_vertices; ++v)
+    vertices[v] = s.fine.surface.posed.At(s.fine.surface.layout.slot_of_vertex[v]);
+  BoneTransforms bones;
+  for (int bone = 0; bone < kBoneCount; ++bone)
+    bones.push_back(s.pose.camera_from_rest[bone].ToRigid());
+  return s.watch->meter.Measure(vertices, bones, depth, {kNear_m, 1, 0.0f});
 }
 
 // Moves the root's joints alone until the rest pose stands where the first frame's points are.
@@ -310,6 +363,9 @@ void Dynamic::ReportOutcome(const FrameFit& fit, TrackResult& result) const {
     result.message = fmt::format(
         "{:.0f} % of the points found a vertex within {:g} m; pose and shape are carried over",
         100.0 * fit.matched_share, settings_.association.cutoff_m);
+  } else if (session_->watch && session_->watch->verdict.is_lost()) {
+    result.outcome = Outcome::kLost;
+    result.message = session_->watch->verdict.message();
   } else if (fit.converged) {
     result.outcome = Outcome::kConverged;
   } else {

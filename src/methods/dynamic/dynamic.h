@@ -9,6 +9,7 @@
 
 #include "methods/dynamic/settings.h"
 #include "methods/dynamic/skeleton_file.h"
+#include "tracking/body_areas.h"
 #include "tracking/tracker.h"
 
 namespace vitruvia::dynamic {
@@ -31,6 +32,8 @@ class Dynamic final : public Tracker {
   void ReadClouds(const DepthFrame& frame);
   void FindFirstPose(const DepthFrame& frame);
   void Place();
+  void WatchAreas(const DepthFrame& frame);
+  BodyAreas MeasureAreas(const DepthImage& depth);
   FrameFit FitPose(bool is_first);
   void IteratePose(int limit, FrameFit& fit);
   bool IsLost(const FrameFit& fit) const;

@@ -196,8 +196,10 @@ void Settings::Describe(Fields& f) {
   f.Section("shape", shape, {.meaning = "warps of the vertices"});
   DescribeStart(f, start);
   f.Section("placement", placement, {.meaning = "how the rest pose is put onto the first frame"});
-  if (f.Applies(start == Start::kSearch)) {
-    f.Section("start_search", start_search, {.meaning = "search for the first pose"});
+  f.Section("watch", watch, {.meaning = "areas that model and frame do not account for"});
+  if (f.Applies(start == Start::kSearch || watch.lost_above > 0.0)) {
+    f.Section("start_search", start_search,
+              {.meaning = "search for the first pose, or for a subject that is not tracked"});
   }
   f.Number("max_depth_m", max_depth_m,
            {.meaning = "pixels beyond are no measurement of the subject",

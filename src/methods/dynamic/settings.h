@@ -5,6 +5,7 @@
 #include <string>
 
 #include "config/settings.h"
+#include "tracking/area_watch.h"
 #include "tracking/start_search.h"
 
 namespace vitruvia::dynamic {
@@ -64,7 +65,8 @@ struct Settings {
   ShapeSettings shape;
   Start start = Start::kRestPose;
   PlacementSettings placement;      // of start kRestPose
-  PoseSearchSettings start_search;  // of start kSearch
+  PoseSearchSettings start_search;  // of start kSearch, and where areas are watched
+  AreaWatchSettings watch;
   double max_depth_m = 8.0;
   double lost_below = 0.3;
   int threads = 2;

@@ -3,6 +3,11 @@
 
 namespace vitruvia::realtime_scape {
 
+NearnessSettings NearnessOf(const FitSettings& settings) {
+  return {static_cast<float>(settings.near_surface_m), settings.edge_px,
+          static_cast<float>(settings.smooth_m), settings.behind_surface};
+}
+
 void FitSettings::Describe(Fields& f) {
   f.Choice(
       "surface_residual", surface_residual,

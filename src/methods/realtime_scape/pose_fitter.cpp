@@ -105,9 +105,7 @@ const RenderedView& PoseFitter::Render(const PosedSurface& surface) {
 // Line 7.
 const Classification& PoseFitter::Classify(const Observation& observation,
                                            const PosedSurface& surface, const RenderedView& view) {
-  const NearnessSettings nearness{static_cast<float>(settings_.fit.near_surface_m),
-                                  settings_.fit.edge_px, static_cast<float>(settings_.fit.smooth_m),
-                                  settings_.fit.behind_surface};
+  const NearnessSettings nearness = NearnessOf(settings_.fit);
   ClassifyVertices(surface.vertices, view.visible, *observation.depth, camera_, nearness,
                    classification_.classes);
   FindUnexplainedPoints(observation.cloud, *view.depth, nearness, classification_.unexplained);

@@ -40,10 +40,21 @@ Relocalizer::Relocalizer(const Model& model, const PinholeCamera& camera, const 
 std::optional<FitSummary> Relocalizer::Search(const Observation& observation,
                                               const FitSummary& current) {
   Tester tester(fitter_, observation, settings_.stopping.first_frame_iterations);
-  FitSummary best = FindBestPose(Hypotheses(observation.cloud, current.pose),
+  FitSummary best = FindBestPose(Hypotheses(Centers(observation.cloud), current.pose),
                                  settings_.recovery.num_refined, tester);
   if (!IsClearlyBetter(best.agreement, current.agreement, settings_.recovery.margin)) return {};
   return best;
+}
+
+std::optional<FitSummary> Relocalizer::SearchElsewhere(const Observation& observation,
+                                                       const FitSummary& current, double away_m) {
+  const Vector3d here = fitter_.VisibleCentroid(current.pose);
+  std::vector<Vector3d> centers = Centers(observation.cloud);
+  centers.erase(centers.begin());  // of the whole cloud
+  std::erase_if(centers, [&](const Vector3d& center) { return (center - here).norm() <= away_m; });
+  if (centers.empty()) return {};
+  Tester tester(fitter_, observation, settings_.stopping.first_frame_iterations);
+  return FindBestPose(Hypotheses(centers, current.pose), settings_.recovery.num_refined, tester);
 }
 
 // Of the whole cloud, and of its parts where there are several.
@@ -66,13 +77,14 @@ BodyPose Relocalizer::AlignCentroid(const Vector3d& center, BodyPose pose) {
   return pose;
 }
 
-std::vector<BodyPose> Relocalizer::Hypotheses(const PointCloud& cloud, const BodyPose& current) {
+std::vector<BodyPose> Relocalizer::Hypotheses(const std::vector<Vector3d>& centers,
+                                              const BodyPose& current) {
   constexpr std::array kOffsets_m = {0.0, -0.3, 0.3};  // part of the body may be out of the image
   std::vector<BodyPose> seeds = memory_.poses();
   seeds.push_back(current);
   const std::vector<Matrix3<double>> rotations = HypothesisRotations();
   std::vector<BodyPose> hypotheses;
-  for (const Vector3d& center : Centers(cloud)) {
+  for (const Vector3d& center : centers) {
     for (const BodyPose& seed : seeds) {
       for (const Matrix3<double>& rotation : rotations) {
         const BodyPose aligned = AlignCentroid(center, RotatedAboutRoot(seed, rotation));

@@ -21,13 +21,17 @@ class Relocalizer {
   // those is returned if it agrees with the frame clearly better than the current pose. Its
   // agreement and counts are of the pose returned.
   std::optional<FitSummary> Search(const Observation& observation, const FitSummary& current);
+  // The best of the same hypotheses at those parts of the cloud that lie farther than `away_m` from
+  // what is visible of the current pose. Nothing if there is no such part.
+  std::optional<FitSummary> SearchElsewhere(const Observation& observation,
+                                            const FitSummary& current, double away_m);
 
  private:
   class Tester;
 
   std::vector<Vector3d> Centers(const PointCloud& cloud) const;
   BodyPose AlignCentroid(const Vector3d& center, BodyPose pose);
-  std::vector<BodyPose> Hypotheses(const PointCloud& cloud, const BodyPose& current);
+  std::vector<BodyPose> Hypotheses(const std::vector<Vector3d>& centers, const BodyPose& current);
 
   Settings settings_;
   PinholeCamera camera_;

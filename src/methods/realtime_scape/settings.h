@@ -6,6 +6,7 @@
 #include "methods/realtime_scape/terms/energy_term.h"
 #include "search/nearest_neighbors.h"
 #include "solver/linear_solver.h"
+#include "tracking/area_watch.h"
 #include "tracking/classification.h"
 #include "tracking/depth_noise.h"
 #include "tracking/placement.h"
@@ -105,6 +106,8 @@ struct FitSettings {
   void DescribeWeights(Fields& fields);
 };
 
+NearnessSettings NearnessOf(const FitSettings& settings);
+
 struct SearchSettings {
   PairCandidates candidates = PairCandidates::kReach;
   double seen_share = 0.05;
@@ -162,6 +165,7 @@ struct Settings {
   PoseSearchSettings start_search;  // of start kSearch
   LimbSettings limbs;
   RelocalizationSettings recovery;
+  AreaWatchSettings watch;
   double lost_below = 0.3;
   void Describe(Fields& fields);
 

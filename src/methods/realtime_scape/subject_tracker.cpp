@@ -18,6 +18,11 @@ SubjectTracker::SubjectTracker(const Subject& subject, const PinholeCamera& came
       relocalizer_(model_, camera, settings),
       loss_detector_(settings.recovery) {
   if (settings.limbs.min_unexplained_m2 > 0.0) limb_finder_.emplace(model_, camera, settings);
+  if (settings.watch.lost_above > 0.0) {
+    watch_.emplace(Watch{{subject, camera, settings.cloud.stride, settings.cloud.max_depth_m,
+                          settings.watch.reach_m},
+                         AreaWatch(settings.watch)});
+  }
   if (settings.start == Start::kSearch) {
     start_search_.emplace(subject, camera, settings.cloud.max_depth_m, settings.start_search);
   }
@@ -82,21 +87,46 @@ FitSummary SubjectTracker::TakeFoundLimb(const Observation& observation, FitSumm
   return *std::move(found);
 }
 
-// Searches other poses when agreement has been low for long enough. What a search finds replaces
-// the fit, but for its times: all that a search takes is one step of the frame.
+// Searches other poses when agreement has been low for long enough, or when another body may be the
+// subject. What a search finds replaces the fit, but for its times: all that a search takes is one
+// step of the frame.
 FitSummary SubjectTracker::TakeBetterPose(const Observation& observation, FitSummary fit,
                                           bool is_first) {
   const FrameVerdict verdict = loss_detector_.Assess(fit.agreement);
-  if (is_first || verdict == FrameVerdict::kAgrees) relocalizer_.Remember(fit.pose);
-  if (verdict != FrameVerdict::kSearch) return fit;
+  if (watch_) watch_->verdict.Assess(MeasureAreas(observation, fit));
+  // A first fit to something else is no pose to start a search from, but the rest pose is.
+  if (is_first && watch_) relocalizer_.Remember(history_->last);
+  const bool is_doubted = watch_ && watch_->verdict.is_lost();
+  if (is_first || (verdict == FrameVerdict::kAgrees && !is_doubted))
+    relocalizer_.Remember(fit.pose);
 
-  std::optional<FitSummary> found = relocalizer_.Search(observation, fit);
+  std::optional<FitSummary> found;
+  if (watch_ && watch_->verdict.is_search_due()) found = FindElsewhere(observation, fit);
+  if (!found && verdict == FrameVerdict::kSearch) found = relocalizer_.Search(observation, fit);
   clock_.Lap(Step::kRelocalize);
   if (!found) return fit;
   loss_detector_.NoteFound(found->agreement);
+  if (watch_) watch_->verdict.NoteFound(MeasureAreas(observation, *found));
   history_ = AtRest(found->pose);
   found->times = fit.times;
   return *std::move(found);
+}
+
+// A pose out of the current one's reach, if it looks more like the subject.
+std::optional<FitSummary> SubjectTracker::FindElsewhere(const Observation& observation,
+                                                        const FitSummary& fit) {
+  std::optional<FitSummary> found =
+      relocalizer_.SearchElsewhere(observation, fit, settings_.watch.reach_m);
+  if (!found) return {};
+  const double here = MeasureAreas(observation, fit).overlap();
+  const double there = MeasureAreas(observation, *found).overlap();
+  if (there <= here + settings_.watch.margin) return {};
+  return found;
+}
+
+BodyAreas SubjectTracker::MeasureAreas(const Observation& observation, const FitSummary& fit) {
+  return watch_->meter.Measure(fit.surface.vertices, fit.surface.camera_from_rest,
+                               *observation.depth, NearnessOf(settings_.fit));
 }
 
 // A frame that cannot be fitted: the pose stays; before the first one that can it is the rest pose
@@ -119,6 +149,9 @@ SubjectTracker::Ending SubjectTracker::EndingOf(const FitSummary& fit) const {
     return {Outcome::kLost,
             fmt::format("the frame confirms {:.0f} % of the model, usually {:.0f} %",
                         100.0 * presence, 100.0 * loss_detector_.usual().presence())};
+  }
+  if (watch_ && watch_->verdict.is_lost()) {
+    return {Outcome::kLost, watch_->verdict.message()};
   }
   if (!fit.solved) {
     return {Outcome::kLost,

@@ -5,6 +5,7 @@
 
 #include "methods/realtime_scape/limb_finder.h"
 #include "methods/realtime_scape/relocalizer.h"
+#include "tracking/area_watch.h"
 #include "tracking/frame_checks.h"
 #include "tracking/loss_detector.h"
 
@@ -32,6 +33,14 @@ class SubjectTracker {
   Ending EndingOf(const FitSummary& fit) const;
   TrackResult Result(FitSummary fit, Ending ending) const;
 
+  // What watches the areas, if the settings ask for it.
+  struct Watch {
+    BodyAreaMeter meter;
+    AreaWatch verdict;
+  };
+  std::optional<FitSummary> FindElsewhere(const Observation& observation, const FitSummary& fit);
+  BodyAreas MeasureAreas(const Observation& observation, const FitSummary& fit);
+
   PinholeCamera camera_;
   Settings settings_;
   Model model_;
@@ -40,6 +49,7 @@ class SubjectTracker {
   std::optional<LimbFinder> limb_finder_;  // if the settings ask for it
   Relocalizer relocalizer_;
   LossDetector loss_detector_;
+  std::optional<Watch> watch_;
   std::optional<StartSearch> start_search_;
   std::string start_message_;  // of the last search
   StepClock<RealtimeScapeStep> clock_;

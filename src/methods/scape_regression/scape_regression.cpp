@@ -87,7 +87,7 @@ TrackResult ScapeRegression::TrackFrame(const DepthFrame& frame) {
     result.outcome = Outcome::kNoData;
     result.message = "the frame holds no measurement; the pose is carried over";
   } else if (is_first) {
-    s.last = FirstPose(frame.depth, cloud);
+    s.last = FirstPose(frame, cloud);
   }
   FitResult fit;
   if (!cloud.points.empty() && s.last) {
@@ -119,11 +119,11 @@ TrackResult ScapeRegression::TrackFrame(const DepthFrame& frame) {
 }
 
 // Nothing if the subject was searched for and not found.
-std::optional<ScapePose> ScapeRegression::FirstPose(const DepthImage& depth,
+std::optional<ScapePose> ScapeRegression::FirstPose(const DepthFrame& frame,
                                                     const PointCloud& cloud) {
   Session& s = *session_;
   if (s.start_search) {
-    const FoundStart found = s.start_search->Find(depth);
+    const FoundStart found = s.start_search->Find(frame.depth, frame.known);
     s.start_message = found.message;
     if (!found.found) return {};
     return s.body.PoseOf(found.camera_from_rest);

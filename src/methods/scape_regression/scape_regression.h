@@ -36,7 +36,7 @@ class ScapeRegression final : public Tracker {
  private:
   struct Session;  // everything that depends on the subject and the camera
 
-  std::optional<ScapePose> FirstPose(const DepthImage& depth, const PointCloud& cloud);
+  std::optional<ScapePose> FirstPose(const DepthFrame& frame, const PointCloud& cloud);
   void ReportOutcome(const FitResult& fit, TrackResult& result) const;
 
   Settings settings_;

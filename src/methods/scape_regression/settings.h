@@ -44,8 +44,8 @@ struct Settings {
   FitSettings fit;
   double visible_within_m = 0.002;
   Start start = Start::kRestPose;
-  PlacementSettings placement;       // of start kRestPose
-  StartSearchSettings start_search;  // of start kSearch
+  PlacementSettings placement;      // of start kRestPose
+  PoseSearchSettings start_search;  // of start kSearch
   double max_depth_m = 8.0;
   double lost_below = 0.3;
   void Describe(Fields& fields);

@@ -1,0 +1,96 @@
+#include "tracking/area_watch.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace vitruvia {
+
+void AreaWatchSettings::Describe(Fields& f) {
+  f.Number("lost_above", lost_above,
+           {.meaning = "a frame is reported as lost when a larger share of the observed area is "
+                       "unexplained by the model or claimed by it in vain; 0: areas are not "
+                       "watched",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kTuned,
+            .source = "0.065 on captured/tuning"});
+  if (!f.Applies(lost_above > 0.0)) return;
+  f.Number("found_below", found_below,
+           {.meaning = "a lost subject counts as found again when a smaller share of the observed "
+                       "area is unexplained or claimed in vain",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kTuned,
+            .source = "captured/tuning"});
+  f.Integer("found_frames", found_frames,
+            {.meaning = "number of frames in a row that must agree before a lost subject counts as "
+                        "found again",
+             .unit = "frames",
+             .min = 1,
+             .max = 1e6,
+             .origin = Origin::kTuned,
+             .source = "captured/tuning"});
+  f.Number("reach_m", reach_m,
+           {.meaning = "points farther than this from every bone's axis are no lost limb of the "
+                       "subject",
+            .unit = "m",
+            .min = 0,
+            .max = 100,
+            .origin = Origin::kGuessed,
+            .source = "0.3 and 0.5 tell the same frames of captured/tuning"});
+  f.Number(
+      "other_body_share", other_body_share,
+      {.meaning = "the subject is searched among the points out of the model's reach when "
+                  "their area exceeds this multiple of the visible area of the model",
+       .min = 0,
+       .max = 1e6,
+       .origin = Origin::kGuessed,
+       .source = "a person seen from the side shows half the area of one seen from the front"});
+  f.Integer("search_pause", search_pause,
+            {.meaning = "least number of frames between two searches among the points out of "
+                        "reach; doubled by each search that finds nothing",
+             .unit = "frames",
+             .min = 1,
+             .max = 1e6,
+             .origin = Origin::kGuessed,
+             .source = "as recovery.pause"});
+  f.Number("margin", margin,
+           {.meaning = "a pose found among the points out of reach is taken if it overlaps with "
+                       "what the frame shows round it by this much more than the current pose does",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kGuessed,
+            .source = "above what noise changes"});
+}
+
+void AreaWatch::Assess(const BodyAreas& areas) {
+  disagreement_ = areas.disagreement();
+  if (disagreement_ > settings_.lost_above) is_lost_ = true;
+  frames_agreed_ = disagreement_ < settings_.found_below ? frames_agreed_ + 1 : 0;
+  if (frames_agreed_ >= settings_.found_frames) is_lost_ = false;
+
+  frames_until_search_ = std::max(frames_until_search_ - 1, 0);
+  const bool is_other_body =
+      areas.stray_m2 > settings_.other_body_share * areas.total().visible_m2();
+  if (!is_other_body) pause_ = frames_until_search_ = 0;
+  is_search_due_ = is_other_body && frames_until_search_ == 0;
+  if (!is_search_due_) return;
+  pause_ = std::max(2 * pause_, settings_.search_pause);
+  frames_until_search_ = pause_;
+}
+
+std::string AreaWatch::message() const {
+  return fmt::format("model and frame do not account for {:.0f} % of the observed area",
+                     100.0 * disagreement_);
+}
+
+void AreaWatch::NoteFound(const BodyAreas& areas) {
+  disagreement_ = areas.disagreement();
+  is_lost_ = disagreement_ > settings_.lost_above;
+  frames_agreed_ = 0;
+  pause_ = settings_.search_pause;
+  frames_until_search_ = pause_;
+}
+
+}  // namespace vitruvia
