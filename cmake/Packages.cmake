@@ -11,11 +11,14 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
   ChartsCore CommonColor CommonCore CommonDataModel FiltersCore FiltersGeneral FiltersSources IOExport IOImage
   IOXML RenderingAnnotation RenderingContext2D RenderingContextOpenGL2 RenderingCore RenderingFreeType
   RenderingOpenGL2 ViewsContext2D)
+find_package(ZLIB REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
 pkg_check_modules(FLANN REQUIRED IMPORTED_TARGET flann)
 pkg_check_modules(OPENMESH REQUIRED openmesh)
 set(OpenMesh_VERSION ${OPENMESH_VERSION})  # its CMake config does not say; run records do
+# The viewer's pages carry it: they need no network.
+find_file(THREE_SCRIPT three.min.js PATHS /usr/share/javascript/three REQUIRED)
 
 # Third-party headers are not ours to warn about.
 foreach(target nlohmann_json::nlohmann_json fmt::fmt Eigen3::Eigen PkgConfig::OSMESA PkgConfig::FLANN)

@@ -37,6 +37,7 @@
 #include "experiments/cli/sufficient_command.h"
 #include "experiments/cli/track_command.h"
 #include "experiments/cli/verify_command.h"
+#include "experiments/cli/view_command.h"
 #include "experiments/plan/run_plan.h"
 #include "reports/pages/report.h"
 
@@ -119,6 +120,7 @@ void AddCommands(CLI::App& app, Arguments& a) {
   AddSubmitCommand(app);
   AddSufficientCommand(app);
   AddRescoreCommand(app);
+  AddViewCommand(app);
   AddExportCommand(app);
   AddImportCommand(app);
 
@@ -160,7 +162,7 @@ int RunCommandLine(int argc, const char* const* argv) {
     if (app.get_subcommands().empty()) {
       throw ConfigError(
           "expected a command: list, synth, import, verify, learn, scan, fit, rig, subject, track, "
-          "run, status, submit, rescore, export, report, index, compare, sufficient, regress, "
+          "run, status, submit, rescore, view, export, report, index, compare, sufficient, regress, "
           "schema or explain (--help)");
     }
     if (std::fflush(stdout) != 0) FailToWrite("standard output", errno);

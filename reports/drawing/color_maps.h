@@ -15,6 +15,9 @@ Color DepthColor(double share);
 // order shows in grey and to the colour-blind alike. `share` is error / scale.
 Color ErrorColor(double share);
 
+// Neighbouring bones have different hues: the golden angle round the circle of colours.
+Color BoneColor(int bone);
+
 // Where an error scale ends: a round number that holds 98 % of `errors`, and `smallest` at least.
 double ErrorScaleEnd(std::vector<double> errors, double smallest);
 
