@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -161,15 +160,16 @@ VertexColors CompareWithTruth(const OpenedRun& run, const std::vector<int>& fram
   return colors;
 }
 
-// The bone of the largest weight, where the estimate moves the sequence's own template.
-std::optional<std::vector<std::uint8_t>> BoneOfVertex(const OpenedRun& run,
-                                                      const ThinnedMesh& mesh) {
-  if (!run.sequence->info().subject) return std::nullopt;
-  const BodyModel& subject = run.sequence->subject();
-  if (subject.rest.vertices.size() != run.estimate->rest_mesh().vertices.size())
-    return std::nullopt;
+// The bone of the largest weight of the vertex of the sequence's subject that is nearest in the
+// rest pose. The estimate may move another mesh.
+std::vector<std::uint8_t> BoneOfVertex(const BodyModel& subject,
+                                       const std::vector<Vector3f>& rest_vertices) {
   std::vector<std::uint8_t> bones;
-  for (const std::uint32_t vertex : mesh.kept) bones.push_back(subject.weights.bones[vertex][0]);
+  for (const Vector3f& vertex : rest_vertices) {
+    const auto distance2 = [&](const Vector3f& other) { return (other - vertex).squaredNorm(); };
+    const auto nearest = std::ranges::min_element(subject.rest.vertices, {}, distance2);
+    bones.push_back(subject.weights.bones[nearest - subject.rest.vertices.begin()][0]);
+  }
   return bones;
 }
 
@@ -331,8 +331,10 @@ Json RunContent(const OpenedRun& run, int sequence, const PageFrame& page, Packe
     content["surface"]["visible"] =
         arrays.Bytes(std::move(colors.visible), count, Coding::kFrameChanges);
   }
-  if (auto bones = BoneOfVertex(run, mesh))
-    content["surface"]["bone"] = arrays.Bytes(std::move(*bones), 1, Coding::kPlain);
+  if (run.sequence->info().subject) {
+    content["surface"]["bone"] = arrays.Bytes(
+        BoneOfVertex(run.sequence->subject(), mesh.Of(rest.vertices)), 1, Coding::kPlain);
+  }
   return content;
 }
 

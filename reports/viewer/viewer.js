@@ -10,6 +10,10 @@ const kColors = [
 ];
 const element = id => document.getElementById(id);
 
+function percent(share) {
+  return (100 * share).toFixed(share < 0.1 ? 1 : 0) + " %";
+}
+
 class Viewer {
   constructor(page) {
     this.page = page;
@@ -22,7 +26,8 @@ class Viewer {
     this.timeline = new Timeline(element("timeline"), page, frame => this.go(frame));
     this.readAddress();
     this.listen();
-    this.update();
+    this.draw();
+    setTimeout(() => this.drawEventPictures(), 100);
   }
 
   // What some run of the page has.
@@ -73,24 +78,38 @@ class Viewer {
 
   // Worst events with their causes, and how much of the error each cause holds.
   listEvents() {
-    for (const run of this.page.runs) {
-      if (!run.events) continue;
-      const title = document.createElement("h2");
+    this.eventPictures = [];
+    this.page.runs.forEach((run, r) => {
+      const title = document.createElement("h2"), list = document.createElement("ol");
       title.textContent = this.page.runs.length > 1 ? "Worst events: " + run.id : "Worst events";
-      const list = document.createElement("ol");
       for (const event of run.events) {
         const item = document.createElement("li"), button = document.createElement("button");
+        const picture = document.createElement("img"), what = document.createElement("b");
         const detail = document.createElement("small");
         button.type = "button";
-        button.textContent = `frames ${event.first}–${event.last}: ${event.cause}`;
-        detail.textContent = event.reason;
-        button.append(detail);
+        picture.alt = `frame ${event.worst}`;
+        what.textContent = event.cause;
+        detail.textContent = `frames ${event.first}–${event.last}, ${percent(event.share)} of the error; ` +
+                             event.reason;
+        button.append(picture, what, detail);
         button.addEventListener("click", () => this.go(event.worst));
         item.append(button);
         list.append(item);
+        this.eventPictures.push({picture, run: r, frame: event.worst});
       }
-      element("events").append(title, list, this.causeTable(run));
-    }
+      if (run.events.length === 0) list.textContent = "None: the sequence has no true joints.";
+      element("events").append(title, this.causeTable(run), list);
+    });
+  }
+
+  // One picture in each idle moment; the stage is left as it was.
+  drawEventPictures() {
+    const next = this.eventPictures.shift();
+    if (!next) return;
+    const {stage, state} = this;
+    next.picture.src = stage.picture(next.run, next.frame, new Set(["estimate", "truth"]), state.color);
+    this.draw();
+    setTimeout(() => this.drawEventPictures(), 0);
   }
 
   causeTable(run) {
@@ -99,7 +118,8 @@ class Viewer {
     for (const cause of run.causes) {
       const row = table.insertRow();
       row.insertCell().textContent = cause.name;
-      row.insertCell().textContent = (100 * cause.share).toFixed(0) + " %";
+      row.title = cause.meaning;
+      row.insertCell().textContent = percent(cause.share);
     }
     return table;
   }
@@ -210,7 +230,7 @@ class Viewer {
 
   // In order of time. Events where the run was diagnosed, else where the chosen number is largest.
   worstFrames() {
-    const events = this.page.runs.flatMap(run => run.events || []);
+    const events = this.page.runs.flatMap(run => run.events);
     if (events.length) return [...new Set(events.map(event => event.worst))].sort((a, b) => a - b);
     const values = this.page.series.get(this.state.series).values.find(of => of);
     const around = Math.max(1, Math.round(this.fps / 2));
@@ -224,7 +244,7 @@ class Viewer {
 
   // The first frame of each stretch of lost frames.
   lostFrames() {
-    const lost = new Set(this.page.runs.flatMap(run => run.lost || []));
+    const lost = new Set(this.page.runs.flatMap(run => run.lost));
     return [...lost].filter(frame => !lost.has(frame - 1)).sort((a, b) => a - b);
   }
 
@@ -353,7 +373,7 @@ class Viewer {
       parts.push(...bones.map((bone, i) => key(palette.bones[i], bone.name.replaceAll("_", " "))));
     }
     if (this.state.layers.has("truth") && this.available().layers.truth)
-      parts.push(key(palette.truth, "truth"));
+      parts.push(key(this.page.runs.length > 1 ? kTruthBesideRuns : palette.truth, "truth"));
     legend.replaceChildren(...parts);
   }
 

@@ -3,6 +3,7 @@
 // Stored positions are in the depth camera's frame, y down and z forward; scenes turn them so that
 // y is up.
 
+const kTruthBesideRuns = [150, 150, 150];  // the colours of runs stand for runs
 const kUnknownColor = [150, 150, 150];
 const kHiddenColor = [70, 90, 150];
 const kVisibleColor = [235, 215, 130];
@@ -210,6 +211,7 @@ class RunScene {
     const sequence = this.sequence = page.sequences[run.sequence];
     this.page = page;
     const palette = page.palette;
+    const trueColor = alone ? palette.truth : kTruthBesideRuns;
     const ownColor = alone ? palette.estimate : palette.runs[index % palette.runs.length];
     this.scene = new THREE.Scene();
     this.root = new THREE.Group();
@@ -226,10 +228,10 @@ class RunScene {
     this.skeletons = [];
     this.layers = {};
     if (sequence.truth)
-      this.moving.truth = new MovingSurface(sequence.truth, page.grid, palette.truth,
+      this.moving.truth = new MovingSurface(sequence.truth, page.grid, trueColor,
                                             sequence.truth.triangles ? 0.45 : 1);
     for (const name in this.moving) this.layers[name] = this.moving[name].object;
-    this.addSkeletons(links, ownColor, palette.truth);
+    this.addSkeletons(links, ownColor, trueColor);
     this.layers.frustum = frustumOf(sequence.camera);
     this.layers.template = templateOf(run, run.surface.positions.at(0), page.grid, ownColor);
     for (const name in this.layers) this.root.add(this.layers[name]);
@@ -355,6 +357,18 @@ class Stage {
       }
     });
     this.draw();
+  }
+
+  // A small picture of one run's frame, as a data address: the middle of its pane.
+  picture(run, frame, layers, colorBy) {
+    this.show(frame, layers, colorBy);
+    const size = 144, picture = document.createElement("canvas");
+    picture.width = picture.height = size;
+    const {width, height} = this.canvas;
+    const pane = width / (this.overlaid ? 1 : this.scenes.length), side = Math.min(pane, height);
+    const left = (this.overlaid ? 0 : run * pane) + (pane - side) / 2;
+    picture.getContext("2d").drawImage(this.canvas, left, (height - side) / 2, side, side, 0, 0, size, size);
+    return picture.toDataURL("image/png");
   }
 
   draw() {

@@ -124,11 +124,11 @@ class Timeline {
     this.page.runs.forEach((run, r) => {
       pen.fillStyle = `rgb(${this.page.palette.failure})`;
       pen.globalAlpha = 0.22;
-      for (const frame of run.lost || [])
+      for (const frame of run.lost)
         pen.fillRect(x(frame) - half, plot.top, 2 * half, plot.height);
       pen.globalAlpha = 1;
       pen.fillStyle = `rgb(${this.page.palette.runs[r % 7]})`;
-      for (const event of run.events || []) {
+      for (const event of run.events) {
         pen.beginPath();
         pen.moveTo(x(event.worst), plot.top + plot.height + 1);
         pen.lineTo(x(event.worst) - 4, plot.top + plot.height + 8);

@@ -17,9 +17,9 @@ constexpr double kFound_m = 0.08;     // mean over the joints, up to which the b
 constexpr double kLost_m = 0.20;      // mean over the joints, above which it is lost
 constexpr int kFewPixels = 12;        // on a limb
 constexpr double kFast_m = 0.08;      // from frame to frame: more than a limb is thick
-constexpr double kTouching_m = 0.01;  // between a limb's flesh and another's
+constexpr double kTouching_m = 0.03;  // between a limb's flesh and another's
 constexpr double kNoisy_m = 0.008;    // standard deviation of depth
-constexpr double kEventAbove = 0.5;   // an event's frames reach this share of its worst frame
+constexpr double kEventAbove = 0.7;   // an event's frames reach this share of its worst frame
 
 constexpr int Index(BoneId bone) { return static_cast<int>(bone); }
 
@@ -95,8 +95,8 @@ Cause CauseOf(double error_m, const JointEvidence& joint, const FrameEvidence& f
   if (frame.measured_pixels == 0) return Cause::kNoData;
   if (joint.pixels < kFewPixels) return Cause::kFewPairs;
   if (joint.step_m > kFast_m) return Cause::kFast;
-  if (joint.gap_m < kTouching_m) return Cause::kLimbOnBody;
   if (joint.noise_m > kNoisy_m) return Cause::kNoise;
+  if (joint.gap_m < kTouching_m) return Cause::kLimbOnBody;
   return state.lost ? Cause::kLost : Cause::kUnknown;
 }
 
@@ -135,14 +135,6 @@ Cause LargestCause(const CauseSums& sums) {
   return *largest > 0.0 ? static_cast<Cause>(largest - sums.begin()) : Cause::kSmall;
 }
 
-double Explained(const JointErrors17& errors_m, const JointCauses& causes) {
-  double sum = 0.0;
-  for (int joint = 0; joint < kBoneCount; ++joint) {
-    if (causes[joint] != Cause::kSmall) sum += errors_m[joint];
-  }
-  return sum;
-}
-
 // "left wrist and 2 more joints: up to 0.31 m". Names the joint with the largest error of the
 // event's cause.
 std::string ReasonOf(const ErrorEvent& event, const std::vector<JointErrors17>& errors_m,
@@ -170,7 +162,8 @@ std::vector<ErrorEvent> FindEvents(const std::vector<JointErrors17>& errors_m,
                                    const std::vector<JointCauses>& causes, double total_m) {
   const auto count = static_cast<int>(errors_m.size());
   std::vector<double> remaining(errors_m.size());
-  for (int i = 0; i < count; ++i) remaining[i] = Explained(errors_m[i], causes[i]);
+  for (int i = 0; i < count; ++i)
+    remaining[i] = std::accumulate(errors_m[i].begin(), errors_m[i].end(), 0.0);
   std::vector<ErrorEvent> events;
   while (events.size() < kMostEvents) {
     const auto worst = static_cast<int>(std::ranges::max_element(remaining) - remaining.begin());

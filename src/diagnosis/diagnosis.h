@@ -21,7 +21,7 @@ struct ErrorEvent {
   int first = 0, last = 0, worst = 0;  // frames
   Cause cause = Cause::kUnknown;       // that holds most of the event's error
   double share = 0.0;                  // of the run's error
-  std::string reason{};                  // "left wrist and 2 more: up to 0.31 m; hidden"
+  std::string reason{};                // "left wrist and 2 more: up to 0.31 m; hidden"
 };
 
 struct Diagnosis {

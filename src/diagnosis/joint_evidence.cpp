@@ -13,7 +13,7 @@ namespace vitruvia {
 namespace {
 
 constexpr double kLeafLength_m = 0.12;  // of hand, foot and head beyond their joints
-constexpr int kSamplesOfLimb = 5;
+constexpr int kSamplesOfBone = 5;
 constexpr double kNearBone_m = 0.05;     // beyond its flesh: pixels that are counted as the bone's
 constexpr int kMostPixels = 6000;        // of a frame that are looked at
 constexpr double kGaussianMad = 1.4826;  // standard deviation over median absolute deviation
@@ -71,17 +71,31 @@ bool AreNeighbours(int a, int b) {
   return a == b || parent_a == b || parent_b == a || parent_a == parent_b;
 }
 
-double Gap(const Segments& segments, int limb, const std::array<double, kBoneCount>& radii_m) {
+// Between a bone's flesh and the nearest other bone's that is no neighbour.
+double GapOfBone(const Segments& segments, int bone,
+                 const std::array<double, kBoneCount>& radii_m) {
   double gap_m = std::numeric_limits<double>::infinity();
-  if (!segments[limb]) return kAbsent;
+  if (!segments[bone]) return gap_m;
   for (int other = 0; other < kBoneCount; ++other) {
-    if (!segments[other] || AreNeighbours(limb, other)) continue;
-    for (int i = 0; i < kSamplesOfLimb; ++i) {
-      const double share = (i + 1.0) / kSamplesOfLimb;
-      const Vector3d point = (1.0 - share) * segments[limb]->from + share * segments[limb]->to;
-      gap_m = std::min(gap_m, segments[other]->DistanceTo(point) - radii_m[limb] - radii_m[other]);
+    if (!segments[other] || AreNeighbours(bone, other)) continue;
+    for (int i = 0; i < kSamplesOfBone; ++i) {
+      const double share = (i + 1.0) / kSamplesOfBone;
+      const Vector3d point = (1.0 - share) * segments[bone]->from + share * segments[bone]->to;
+      gap_m = std::min(gap_m, segments[other]->DistanceTo(point) - radii_m[bone] - radii_m[other]);
     }
   }
+  return gap_m;
+}
+
+// Of arm or leg, from the bone above the joint to the end; infinite for a joint of the trunk.
+double GapOfLimb(const Segments& segments, int joint,
+                 const std::array<double, kBoneCount>& radii_m) {
+  double gap_m = std::numeric_limits<double>::infinity();
+  if (joint <= static_cast<int>(BoneId::kHead)) return gap_m;
+  if (LimbOf(joint) > static_cast<int>(BoneId::kHead))
+    gap_m = GapOfBone(segments, LimbOf(joint), radii_m);
+  for (int bone = joint; bone >= 0; bone = FirstChild(bone))
+    gap_m = std::min(gap_m, GapOfBone(segments, bone, radii_m));
   return gap_m;
 }
 
@@ -199,8 +213,7 @@ std::vector<FrameEvidence> GatherEvidence(const SequenceReader& sequence) {
       found.visible = truth.visible[j];
       if (!frames.empty() && frames.back().truth[joint])
         found.step_m = (*evidence.truth[joint] - *frames.back().truth[joint]).norm();
-      found.gap_m = Gap(segments, limb, radii_m);
-      if (FirstChild(joint) < 0) found.gap_m = std::min(found.gap_m, Gap(segments, joint, radii_m));
+      found.gap_m = GapOfLimb(segments, joint, radii_m);
       found.pixels = pixels.count[limb];
       found.noise_m = pixels.residuals_m[limb].empty()
                           ? kAbsent

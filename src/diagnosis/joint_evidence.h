@@ -11,12 +11,12 @@
 
 namespace vitruvia {
 
-// Of one joint in one frame. Distances in metres; absent (NaN) where they cannot be told.
+// Of one joint in one frame.
 struct JointEvidence {
   bool in_view = true;
   bool visible = true;
   double step_m = 0.0;   // from the frame before; 0 in the first
-  double gap_m = 0.0;    // between the limb and the nearest part of the body that is no neighbour
+  double gap_m = 0.0;    // between the rest of the limb and the nearest other part of the body
   int pixels = 0;        // measured near the bone that hangs on the joint
   double noise_m = 0.0;  // standard deviation of depth there
 };
