@@ -428,7 +428,7 @@ async function open() {
   const started = performance.now();
   try {
     const page = await loadPage();
-    element("viewer").hidden = false;
+    element("shown").hidden = false;
     window.viewer = new Viewer(page);
     element("loading").remove();
     window.viewer.openedAfter_ms = performance.now() - started;

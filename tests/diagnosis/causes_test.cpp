@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(OneAtATime, Causes,
                                          Cause::kOutOfView, Cause::kHidden, Cause::kNoData,
                                          Cause::kFewPairs, Cause::kFast, Cause::kNoise,
                                          Cause::kLimbOnBody),
-                         [](const auto& info) { return VariantOf(info.param); });
+                         [](const auto& of) { return VariantOf(of.param); });
 
 }  // namespace
 }  // namespace vitruvia
