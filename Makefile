@@ -7,7 +7,8 @@ SHELL := /bin/bash
 # Debian 12. To build and test; nothing else is needed but make itself.
 PACKAGES := g++ cmake ninja-build pkgconf git ccache \
   nlohmann-json3-dev libfmt-dev libcli11-dev libeigen3-dev libboost-dev libopenmesh-dev libflann-dev \
-  liblz4-dev zlib1g-dev libjs-three libosmesa6-dev libceres-dev libopencv-dev libvtk9-dev libgtest-dev libgmock-dev
+  liblz4-dev zlib1g-dev libosmesa6-dev libceres-dev libopencv-dev libvtk9-dev libtinygltf-dev libjs-three \
+  libgtest-dev libgmock-dev chromium
 NPM_PACKAGES := nodejs npm ca-certificates
 # Pinned: other versions format and warn differently.
 FORMAT_PACKAGES := clang-format-14

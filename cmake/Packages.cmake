@@ -12,6 +12,7 @@ find_package(VTK 9.1 REQUIRED COMPONENTS
   IOXML RenderingAnnotation RenderingContext2D RenderingContextOpenGL2 RenderingCore RenderingFreeType
   RenderingOpenGL2 ViewsContext2D)
 find_package(ZLIB REQUIRED)
+find_package(TinyGLTF REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
 pkg_check_modules(FLANN REQUIRED IMPORTED_TARGET flann)
