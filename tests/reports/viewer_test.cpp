@@ -10,6 +10,8 @@
 #include "metrics/vertex_error.h"
 #include "records/estimate.h"
 #include "reports/browser.h"
+#include "reports/pages/index_page.h"
+#include "reports/pages/report.h"
 #include "reports/synthetic_experiment.h"
 #include "reports/viewer/packing.h"
 #include "reports/viewer/thinned_mesh.h"
@@ -107,6 +109,15 @@ TEST_F(ViewerPage, RefusesWhatIsNoRun) {
   EXPECT_THROW(WriteViewer({folder_ / "nothing"}, {}, page_), DataError);
   EXPECT_THROW(WriteViewer({Run(kMissingRun)}, {}, page_), DataError);
   EXPECT_FALSE(fs::exists(page_));
+}
+
+TEST_F(ViewerPage, IsLinkedFromReportAndIndex) {
+  WriteViewer({Run(kWavingRun)}, {}, Run(kWavingRun) / kViewerPage);
+  const std::string report = ReadWholeFile(WriteReport(experiment_));
+  EXPECT_THAT(report, HasSubstr(fmt::format("<a href=\"{}/view.html\"", kWavingRun)));
+  EXPECT_EQ(Count(report, "view.html"), 1u) << "other runs have no viewer";
+  EXPECT_THAT(ReadWholeFile(WriteIndex(folder_.path())),
+              HasSubstr(fmt::format("<a href=\"synthetic/{}/view.html\"", kWavingRun)));
 }
 
 // Drives the page as a person would, and writes what became of it into the title.
