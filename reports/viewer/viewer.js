@@ -19,7 +19,7 @@ class Viewer {
     this.page = page;
     this.fps = page.sequences[page.runs[0].sequence].fps;
     this.state = {frame: 0, layers: new Set(["estimate", "depth"]), color: "plain", series: "",
-                  layout: "beside", speed: 1, follow: false, difference: false, logarithmic: false};
+                  layout: "beside", speed: 1, scale_mm: 1e3 * page.error_scale_m, follow: false, difference: false, logarithmic: false};
     this.playing = false;
     this.makeControls();
     this.stage = new Stage(element("stage"), page);
@@ -139,6 +139,7 @@ class Viewer {
     element("scrub").addEventListener("input", event => this.go(Number(event.target.value)));
     element("frame").addEventListener("change", event => this.go(Number(event.target.value)));
     change("speed", input => state.speed = Number(input.value));
+    change("scale", input => { if (Number(input.value) > 0) state.scale_mm = Number(input.value); });
     change("series", input => state.series = input.value);
     change("difference", input => state.difference = input.checked);
     change("logarithmic", input => state.logarithmic = input.checked);
@@ -293,6 +294,7 @@ class Viewer {
     stage.background.set(getComputedStyle(element("stage")).getPropertyValue("--stage").trim());
     stage.overlaid = state.layout === "over";
     stage.follow = state.follow;
+    stage.errorScale_m = 1e-3 * state.scale_mm;
     stage.show(state.frame, state.layers, state.color);
     Object.assign(this.timeline.options,
                   {difference: state.difference, logarithmic: state.logarithmic});
@@ -309,6 +311,8 @@ class Viewer {
     if (document.activeElement !== element("frame")) element("frame").value = state.frame;
     element("series").value = state.series;
     element("speed").value = state.speed;
+    if (document.activeElement !== element("scale")) element("scale").value = shortNumber(state.scale_mm);
+    element("scale-choice").hidden = state.color !== "error";
     element("follow").checked = state.follow;
     element("difference").checked = state.difference;
     element("logarithmic").checked = state.logarithmic;
@@ -347,7 +351,7 @@ class Viewer {
   }
 
   showLegend() {
-    const {palette, error_scale_m, bones} = this.page;
+    const {palette, bones} = this.page;
     const legend = element("legend");
     const key = (rgb, text) => {
       const part = document.createElement("span"), swatch = document.createElement("span");
@@ -361,7 +365,7 @@ class Viewer {
       const bar = document.createElement("i"), ends = document.createElement("div");
       bar.style.background = `linear-gradient(to right, ${palette.error.map(c => `rgb(${c})`)})`;
       ends.className = "ends";
-      for (const text of ["0", "error", `≥ ${shortNumber(1e3 * error_scale_m)} mm`]) {
+      for (const text of ["0", "error", `≥ ${shortNumber(this.state.scale_mm)} mm`]) {
         const end = document.createElement("span");
         end.textContent = text;
         ends.append(end);
@@ -382,6 +386,7 @@ class Viewer {
     const numbers = [view.azimuth, view.elevation, view.distance, ...view.target.toArray()];
     const entries = {frame: state.frame, layers: [...state.layers].join(" "), color: state.color,
                      series: state.series, layout: state.layout, speed: state.speed,
+                     scale: state.scale_mm,
                      view: numbers.map(x => Number(x.toFixed(3))).join(" ")};
     for (const flag of ["follow", "difference", "logarithmic"]) if (state[flag]) entries[flag] = 1;
     this.address = "#" + new URLSearchParams(entries);
@@ -400,6 +405,7 @@ class Viewer {
     known("series", [...this.page.series.keys()]);
     known("layout", ["beside", "over"]);
     if (Number(entries.get("speed")) > 0) state.speed = Number(entries.get("speed"));
+    if (Number(entries.get("scale")) > 0) state.scale_mm = Number(entries.get("scale"));
     if (entries.has("layers"))
       state.layers = new Set(entries.get("layers").split(" ").filter(
           name => kLayers.some(layer => layer[0] === name)));

@@ -4,6 +4,7 @@
 // y is up.
 
 const kTruthBesideRuns = [150, 150, 150];  // the colours of runs stand for runs
+const kHalfAngleTangent = Math.tan(20 * Math.PI / 180);  // of the view, in the pane's shorter direction
 const kUnknownColor = [150, 150, 150];
 const kHiddenColor = [70, 90, 150];
 const kVisibleColor = [235, 215, 130];
@@ -261,16 +262,16 @@ class RunScene {
     for (const skeleton of this.skeletons) skeleton.show(own);
   }
 
-  paint(colorBy) {
-    this.moving.estimate.paint(this.painter(colorBy));
+  paint(colorBy, errorScale_m) {
+    this.moving.estimate.paint(this.painter(colorBy, errorScale_m));
   }
 
   // Null: the surface's own colour.
-  painter(colorBy) {
+  painter(colorBy, errorScale_m) {
     const surface = this.run.surface, palette = this.page.palette;
     if (colorBy === "error" && surface.error) {
       const bytes = surface.error.values.at(this.stored);
-      const scale = surface.error.most_m / this.page.error_scale_m, ramp = palette.error;
+      const scale = surface.error.most_m / errorScale_m, ramp = palette.error;
       const colors = Array.from({length: 256}, (_, b) => {
         const share = Math.min(1, (b / 255) ** 2 * scale);
         return ramp[Math.round(share * (ramp.length - 1))];
@@ -324,10 +325,13 @@ class Stage {
     this.renderer = new THREE.WebGLRenderer({canvas: canvas, antialias: true,
                                              preserveDrawingBuffer: true});
     this.renderer.autoClear = false;
-    this.camera = new THREE.PerspectiveCamera(40, 1, 0.05, 60);
+    this.camera = new THREE.PerspectiveCamera();
+    this.camera.near = 0.05;
+    this.camera.far = 60;
     this.scenes = page.runs.map((_, i) => new RunScene(page, i, page.runs.length === 1));
     this.overlaid = false;
     this.follow = false;
+    this.errorScale_m = page.error_scale_m;  // where the colours of errors end
     this.background = new THREE.Color(1, 1, 1);
     this.frame = 0;
     const first = this.pelvis(0);
@@ -348,7 +352,7 @@ class Stage {
     this.frame = frame;
     this.scenes.forEach((scene, i) => {
       scene.show(frame);
-      scene.paint(colorBy);
+      scene.paint(colorBy, this.errorScale_m);
       const shared = this.overlaid && i > 0 &&
                      this.page.runs[i].sequence === this.page.runs[0].sequence;
       for (const name in scene.layers) {
@@ -381,7 +385,9 @@ class Stage {
       Object.assign(this, {width, height, ratio});
     }
     const panes = this.overlaid ? 1 : this.scenes.length;
-    this.camera.aspect = width / panes / height;
+    const aspect = this.camera.aspect = width / panes / height;
+    const halfAngle = Math.atan(kHalfAngleTangent / Math.min(1, aspect));  // a narrow pane is as wide
+    this.camera.fov = 2 * halfAngle * 180 / Math.PI;
     this.camera.updateProjectionMatrix();
     const shift = this.follow ? this.pelvis(this.frame).sub(this.pelvis(0)) : new THREE.Vector3();
     this.view.place(this.camera, shift);
@@ -421,7 +427,7 @@ function steerByPointer(stage, changed) {
     if (pointers.size === 2) {
       view.zoom(before / Math.max(1, spread()));
     } else if (event.shiftKey || event.buttons & 2) {
-      const metres = view.distance * 0.73 / canvas.clientHeight;  // of a pixel, at 40 degrees
+      const metres = 2 * kHalfAngleTangent * view.distance / canvas.clientHeight;  // of a pixel
       view.pan(-dx * metres, dy * metres);
     } else {
       view.turn(-dx * 0.4, dy * 0.4);
