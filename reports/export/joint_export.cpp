@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "metrics/bone_motion.h"
+#include "metrics/nearest_vertices.h"
 #include "reports/export/exported_run.h"
 
 namespace vitruvia {
@@ -36,12 +37,9 @@ std::string TruthColumns(const SequenceReader& sequence, int frame, std::string_
 // pose: the estimate may move another mesh.
 RigidParts PartsOf(const BodyModel& subject, const std::vector<Vector3f>& rest_vertices) {
   std::vector<int> bone_of_vertex;
-  for (const Vector3f& vertex : rest_vertices) {
-    const auto distance2 = [&](const Vector3f& other) { return (other - vertex).squaredNorm(); };
-    const auto nearest = std::ranges::min_element(subject.rest.vertices, {}, distance2) -
-                         subject.rest.vertices.begin();
-    const bool rigid = subject.weights.weights[nearest][0] >= kRigidWeight;
-    bone_of_vertex.push_back(rigid ? subject.weights.bones[nearest][0] : -1);
+  for (const int vertex : NearestVertices(rest_vertices, subject.rest.vertices)) {
+    const bool rigid = subject.weights.weights[vertex][0] >= kRigidWeight;
+    bone_of_vertex.push_back(rigid ? subject.weights.bones[vertex][0] : -1);
   }
   return {rest_vertices, bone_of_vertex, kBoneCount};
 }

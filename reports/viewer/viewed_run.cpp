@@ -10,6 +10,7 @@
 #include "core/progress.h"
 #include "geometry/zbuffer.h"
 #include "metrics/catalogue.h"
+#include "metrics/nearest_vertices.h"
 #include "metrics/vertex_error.h"
 #include "reports/drawing/color_maps.h"
 #include "scoring/score.h"
@@ -165,11 +166,8 @@ VertexColors CompareWithTruth(const OpenedRun& run, const std::vector<int>& fram
 std::vector<std::uint8_t> BoneOfVertex(const BodyModel& subject,
                                        const std::vector<Vector3f>& rest_vertices) {
   std::vector<std::uint8_t> bones;
-  for (const Vector3f& vertex : rest_vertices) {
-    const auto distance2 = [&](const Vector3f& other) { return (other - vertex).squaredNorm(); };
-    const auto nearest = std::ranges::min_element(subject.rest.vertices, {}, distance2);
-    bones.push_back(subject.weights.bones[nearest - subject.rest.vertices.begin()][0]);
-  }
+  for (const int vertex : NearestVertices(rest_vertices, subject.rest.vertices))
+    bones.push_back(subject.weights.bones[vertex][0]);
   return bones;
 }
 
