@@ -98,7 +98,9 @@ class Viewer {
         this.eventPictures.push({picture, run: r, frame: event.worst});
       }
       if (run.events.length === 0) list.textContent = "None: the sequence has no true joints.";
-      element("events").append(title, this.causeTable(run), list);
+      element("events").append(title);
+      if (run.causes.length > 0) element("events").append(this.causeTable(run));
+      element("events").append(list);
     });
   }
 

@@ -334,8 +334,11 @@ class Stage {
     this.errorScale_m = page.error_scale_m;  // where the colours of errors end
     this.background = new THREE.Color(1, 1, 1);
     this.frame = 0;
-    const first = this.pelvis(0);
-    this.view = new View(first, 2.9);
+    // Views are set round where the body is in the first frame in which it is followed.
+    const lost = new Set(page.runs[0].lost);
+    const followed = page.stored_frames.find(frame => !lost.has(frame));
+    this.home = this.pelvis(followed === undefined ? 0 : followed);
+    this.view = new View(this.home, 2.9);
   }
 
   // Of the first run, in the scenes' frame.
@@ -365,7 +368,10 @@ class Stage {
 
   // A small picture of one run's frame, as a data address: the middle of its pane.
   picture(run, frame, layers, colorBy) {
+    const {follow} = this;
+    this.follow = true;
     this.show(frame, layers, colorBy);
+    this.follow = follow;
     const size = 144, picture = document.createElement("canvas");
     picture.width = picture.height = size;
     const {width, height} = this.canvas;
@@ -389,7 +395,7 @@ class Stage {
     const halfAngle = Math.atan(kHalfAngleTangent / Math.min(1, aspect));  // a narrow pane is as wide
     this.camera.fov = 2 * halfAngle * 180 / Math.PI;
     this.camera.updateProjectionMatrix();
-    const shift = this.follow ? this.pelvis(this.frame).sub(this.pelvis(0)) : new THREE.Vector3();
+    const shift = this.follow ? this.pelvis(this.frame).sub(this.home) : new THREE.Vector3();
     this.view.place(this.camera, shift);
     this.renderer.setScissorTest(true);
     this.renderer.setClearColor(this.background);
