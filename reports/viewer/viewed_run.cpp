@@ -13,6 +13,7 @@
 #include "metrics/nearest_vertices.h"
 #include "metrics/vertex_error.h"
 #include "reports/drawing/color_maps.h"
+#include "reports/viewer/template_distance.h"
 #include "scoring/score.h"
 
 namespace vitruvia {
@@ -122,15 +123,22 @@ Json OwnTrueSurface(const OpenedRun& run, const std::vector<int>& frames, const 
                                      Coding::kBytePlanes)}};
 }
 
-// The square root of the error as a share of the largest one: fine where errors are small.
-std::vector<std::uint8_t> ErrorBytes(const std::vector<float>& errors_m, float most_m) {
+// The square root of the length as a share of the largest one: fine where lengths are small.
+std::vector<std::uint8_t> LengthBytes(const std::vector<float>& lengths_m, float most_m) {
   std::vector<std::uint8_t> bytes;
-  bytes.reserve(errors_m.size());
-  for (const float error_m : errors_m) {
-    const float share = most_m > 0.0f ? std::clamp(error_m / most_m, 0.0f, 1.0f) : 0.0f;
+  bytes.reserve(lengths_m.size());
+  for (const float length_m : lengths_m) {
+    const float share = most_m > 0.0f ? std::clamp(length_m / most_m, 0.0f, 1.0f) : 0.0f;
     bytes.push_back(static_cast<std::uint8_t>(std::lround(255.0f * std::sqrt(share))));
   }
   return bytes;
+}
+
+// Bytes with the length that 255 stands for.
+Json LengthContent(const std::vector<float>& lengths_m, int frames, PackedArrays& arrays) {
+  const float most_m = lengths_m.empty() ? 0.0f : std::ranges::max(lengths_m);
+  return {{"most_m", most_m},
+          {"values", arrays.Bytes(LengthBytes(lengths_m, most_m), frames, Coding::kFrameChanges)}};
 }
 
 // Per frame and vertex.
@@ -322,16 +330,20 @@ Json RunContent(const OpenedRun& run, int sequence, const PageFrame& page, Packe
                   {"lost", run.diagnosis.lost_frames}};
   if (run.sequence->info().surface) {
     VertexColors colors = CompareWithTruth(run, frames, mesh);
-    const float most_m = colors.errors_m.empty() ? 0.0f : std::ranges::max(colors.errors_m);
-    content["surface"]["error"] = {{"most_m", most_m},
-                                   {"values", arrays.Bytes(ErrorBytes(colors.errors_m, most_m),
-                                                           count, Coding::kFrameChanges)}};
+    content["surface"]["error"] = LengthContent(colors.errors_m, count, arrays);
     content["surface"]["visible"] =
         arrays.Bytes(std::move(colors.visible), count, Coding::kFrameChanges);
   }
   if (run.sequence->info().subject) {
-    content["surface"]["bone"] = arrays.Bytes(
-        BoneOfVertex(run.sequence->subject(), mesh.Of(rest.vertices)), 1, Coding::kPlain);
+    const std::vector<Vector3f> rest_vertices = mesh.Of(rest.vertices);
+    const BodyModel& subject = run.sequence->subject();
+    content["surface"]["bone"] =
+        arrays.Bytes(BoneOfVertex(subject, rest_vertices), 1, Coding::kPlain);
+    const TemplateDistance distance(rest_vertices, subject);
+    std::vector<float> warps_m;
+    for (const int frame : frames)
+      Append(distance.Of(mesh.Of(run.estimate->ReadVertices(frame))), warps_m);
+    content["surface"]["warp"] = LengthContent(warps_m, count, arrays);
   }
   return content;
 }

@@ -122,6 +122,7 @@ std::string Page(const std::string& title, const Json& content, const PackedArra
   html += kViewerBody;
   html += "<script type=\"application/json\" id=\"content\">" + ScriptJson(content) + "</script>\n";
   html += arrays.Html();
+  html += "<!-- three.js, copyright 2010-2019 three.js authors, under the MIT licence -->\n";
   for (const char* script : {kThreeScript, kViewerDataScript, kViewerStageScript,
                              kViewerTimelineScript, kViewerScript}) {
     html += fmt::format("<script>\n{}</script>\n", script);

@@ -6,7 +6,8 @@ const kLayers = [
   ["template", "template"], ["frustum", "camera"],
 ];
 const kColors = [
-  ["error", "error"], ["visible", "visible or hidden"], ["bone", "bone"], ["plain", "plain"],
+  ["error", "error"], ["visible", "visible or hidden"], ["bone", "bone"],
+  ["warp", "warp: distance from the skinned template"], ["plain", "plain"],
 ];
 const element = id => document.getElementById(id);
 
@@ -38,6 +39,7 @@ class Viewer {
       layers: {estimate: true, depth: true, frustum: true, template: true, skeleton: true,
                truth: page.sequences.some(sequence => sequence.truth)},
       colors: {plain: true, error: some(run => run.surface.error),
+               warp: some(run => run.surface.warp),
                visible: some(run => run.surface.visible), bone: some(run => run.surface.bone)},
     };
   }
@@ -314,7 +316,7 @@ class Viewer {
     element("series").value = state.series;
     element("speed").value = state.speed;
     if (document.activeElement !== element("scale")) element("scale").value = shortNumber(state.scale_mm);
-    element("scale-choice").hidden = state.color !== "error";
+    element("scale-choice").hidden = !kLengths.has(state.color);
     element("follow").checked = state.follow;
     element("difference").checked = state.difference;
     element("logarithmic").checked = state.logarithmic;
@@ -363,11 +365,11 @@ class Viewer {
       return part;
     };
     const parts = [];
-    if (this.state.color === "error") {
+    if (kLengths.has(this.state.color)) {
       const bar = document.createElement("i"), ends = document.createElement("div");
       bar.style.background = `linear-gradient(to right, ${palette.error.map(c => `rgb(${c})`)})`;
       ends.className = "ends";
-      for (const text of ["0", "error", `≥ ${shortNumber(this.state.scale_mm)} mm`]) {
+      for (const text of ["0", this.state.color, `≥ ${shortNumber(this.state.scale_mm)} mm`]) {
         const end = document.createElement("span");
         end.textContent = text;
         ends.append(end);

@@ -3,6 +3,7 @@
 // Stored positions are in the depth camera's frame, y down and z forward; scenes turn them so that
 // y is up.
 
+const kLengths = new Set(["error", "warp"]);  // colours that stand for a length of each vertex
 const kTruthBesideRuns = [150, 150, 150];  // the colours of runs stand for runs
 const kHalfAngleTangent = Math.tan(20 * Math.PI / 180);  // of the view, in the pane's shorter direction
 const kUnknownColor = [150, 150, 150];
@@ -269,9 +270,9 @@ class RunScene {
   // Null: the surface's own colour.
   painter(colorBy, errorScale_m) {
     const surface = this.run.surface, palette = this.page.palette;
-    if (colorBy === "error" && surface.error) {
-      const bytes = surface.error.values.at(this.stored);
-      const scale = surface.error.most_m / errorScale_m, ramp = palette.error;
+    if (kLengths.has(colorBy) && surface[colorBy]) {
+      const bytes = surface[colorBy].values.at(this.stored);
+      const scale = surface[colorBy].most_m / errorScale_m, ramp = palette.error;
       const colors = Array.from({length: 256}, (_, b) => {
         const share = Math.min(1, (b / 255) ** 2 * scale);
         return ramp[Math.round(share * (ramp.length - 1))];
