@@ -9,16 +9,14 @@
 #include "body/skeleton.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "metrics/bone_motion.h"
-#include "metrics/nearest_vertices.h"
 #include "reports/export/exported_run.h"
+#include "scoring/bone_placement.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr double kCentimetres = 100.0;
-constexpr float kRigidWeight = 0.9f;  // of a vertex that shows how its bone is turned
 
 std::string TruthColumns(const SequenceReader& sequence, int frame, std::string_view joint,
                          const Vector3d& estimate) {
@@ -33,17 +31,6 @@ std::string TruthColumns(const SequenceReader& sequence, int frame, std::string_
                      static_cast<bool>(truth.visible[j]), (estimate - p).norm());
 }
 
-// The vertices that follow a bone nearly alone, by the subject's vertex that is nearest in the rest
-// pose: the estimate may move another mesh.
-RigidParts PartsOf(const BodyModel& subject, const std::vector<Vector3f>& rest_vertices) {
-  std::vector<int> bone_of_vertex;
-  for (const int vertex : NearestVertices(rest_vertices, subject.rest.vertices)) {
-    const bool rigid = subject.weights.weights[vertex][0] >= kRigidWeight;
-    bone_of_vertex.push_back(rigid ? subject.weights.bones[vertex][0] : -1);
-  }
-  return {rest_vertices, bone_of_vertex, kBoneCount};
-}
-
 Vector3d Upright(const Vector3d& camera_point) {
   return {camera_point.x(), -camera_point.y(), -camera_point.z()};
 }
@@ -54,11 +41,11 @@ struct UprightPose {
   std::vector<Vector3d> positions;
 };
 
-UprightPose PoseOf(const ExportedRun& run, int frame, const RigidParts& parts) {
+UprightPose PoseOf(const ExportedRun& run, int frame, const BonePlacement& bones) {
   const Matrix3<double> upright_from_camera = Vector3d(1.0, -1.0, -1.0).asDiagonal();
   UprightPose pose;
-  for (const Matrix3<double>& rotation : parts.Rotations(run.estimate.ReadVertices(frame)))
-    pose.rotations.push_back(upright_from_camera * rotation);
+  for (const Rigidd& bone : bones.Fit(run.estimate.ReadVertices(frame)))
+    pose.rotations.push_back(upright_from_camera * bone.rotation);
   for (const Vector3d& joint : run.estimate.frames()[frame].joints)
     pose.positions.push_back(Upright(joint));
   return pose;
@@ -132,13 +119,13 @@ int ExportJointTable(const fs::path& experiment_folder, const std::string& run_i
 int ExportBvh(const fs::path& experiment_folder, const std::string& run_id, const fs::path& file) {
   const ExportedRun run = OpenForExport(experiment_folder, run_id, {});
   const BodyModel& subject = run.sequence.subject();
-  const RigidParts parts = PartsOf(subject, run.estimate.rest_mesh().vertices);
+  const BonePlacement bones(run.estimate.rest_mesh().vertices, subject);
   std::vector<int> order;
   std::string text = "HIERARCHY\n" + HierarchyText(subject.skeleton, 0, "", order);
   text += fmt::format("MOTION\nFrames: {}\nFrame Time: {:.6f}\n", run.frames.size(),
                       1.0 / run.sequence.info().fps);
   for (const int frame : run.frames) {
-    const UprightPose pose = PoseOf(run, frame, parts);
+    const UprightPose pose = PoseOf(run, frame, bones);
     std::string line;
     for (const int bone : order) line += (line.empty() ? "" : " ") + ChannelText(pose, bone);
     text += line + "\n";

@@ -15,7 +15,7 @@ int ExportJointTable(const std::filesystem::path& experiment_folder, const std::
 
 // The estimated motion in Biovision's format, all frames: centimetres, y up, z towards the camera.
 // Every joint has position channels, since bones of an estimate need not keep their lengths. How
-// each bone is turned is fitted to the vertices that follow it nearly alone. DataError if the
+// each bone is turned is fitted to the surface (scoring/bone_placement.h). DataError if the
 // sequence has no subject, whose skeleton and weights are needed.
 int ExportBvh(const std::filesystem::path& experiment_folder, const std::string& run_id,
               const std::filesystem::path& file);

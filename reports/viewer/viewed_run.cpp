@@ -10,10 +10,9 @@
 #include "core/progress.h"
 #include "geometry/zbuffer.h"
 #include "metrics/catalogue.h"
-#include "metrics/nearest_vertices.h"
 #include "metrics/vertex_error.h"
 #include "reports/drawing/color_maps.h"
-#include "reports/viewer/template_distance.h"
+#include "scoring/bone_placement.h"
 #include "scoring/score.h"
 
 namespace vitruvia {
@@ -167,16 +166,6 @@ VertexColors CompareWithTruth(const OpenedRun& run, const std::vector<int>& fram
       colors.visible.push_back(visible ? 1 : 0);
   }
   return colors;
-}
-
-// The bone of the largest weight of the vertex of the sequence's subject that is nearest in the
-// rest pose. The estimate may move another mesh.
-std::vector<std::uint8_t> BoneOfVertex(const BodyModel& subject,
-                                       const std::vector<Vector3f>& rest_vertices) {
-  std::vector<std::uint8_t> bones;
-  for (const int vertex : NearestVertices(rest_vertices, subject.rest.vertices))
-    bones.push_back(subject.weights.bones[vertex][0]);
-  return bones;
 }
 
 std::vector<float> EstimatedJoints(const EstimateReader& estimate) {
@@ -335,14 +324,11 @@ Json RunContent(const OpenedRun& run, int sequence, const PageFrame& page, Packe
         arrays.Bytes(std::move(colors.visible), count, Coding::kFrameChanges);
   }
   if (run.sequence->info().subject) {
-    const std::vector<Vector3f> rest_vertices = mesh.Of(rest.vertices);
-    const BodyModel& subject = run.sequence->subject();
-    content["surface"]["bone"] =
-        arrays.Bytes(BoneOfVertex(subject, rest_vertices), 1, Coding::kPlain);
-    const TemplateDistance distance(rest_vertices, subject);
+    const BonePlacement bones(mesh.Of(rest.vertices), run.sequence->subject());
+    content["surface"]["bone"] = arrays.Bytes(bones.BoneOfVertex(), 1, Coding::kPlain);
     std::vector<float> warps_m;
     for (const int frame : frames)
-      Append(distance.Of(mesh.Of(run.estimate->ReadVertices(frame))), warps_m);
+      Append(bones.Warps(mesh.Of(run.estimate->ReadVertices(frame))), warps_m);
     content["surface"]["warp"] = LengthContent(warps_m, count, arrays);
   }
   return content;

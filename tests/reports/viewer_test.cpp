@@ -7,7 +7,6 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "math/rotation.h"
 #include "metrics/vertex_error.h"
 #include "records/estimate.h"
 #include "reports/browser.h"
@@ -15,7 +14,6 @@
 #include "reports/pages/report.h"
 #include "reports/synthetic_experiment.h"
 #include "reports/viewer/packing.h"
-#include "reports/viewer/template_distance.h"
 #include "reports/viewer/thinned_mesh.h"
 #include "sequence/sequence.h"
 #include "support/count.h"
@@ -61,13 +59,6 @@ TEST(PositionGrid, IsFineEnough) {
   }
 }
 
-BoneTransforms PosedArm(const Skeleton& skeleton) {
-  JointPose pose = JointPose::Rest(skeleton);
-  pose.local_rotations[static_cast<std::size_t>(BoneId::kLeftForearm)] =
-      ExpSo3<double>({0.0, 0.0, 0.8});
-  return ForwardKinematics(skeleton, pose);
-}
-
 TEST(ThinnedMesh, KeepsVerticesOfTheMesh) {
   const TriangleMesh rest = TinyBody(6).rest;
   const auto count = static_cast<int>(rest.vertices.size());
@@ -77,18 +68,6 @@ TEST(ThinnedMesh, KeepsVerticesOfTheMesh) {
   const TriangleMesh mesh{thinned.Of(rest.vertices), thinned.triangles};
   EXPECT_EQ(InspectMesh(mesh).problem, "");
   EXPECT_NEAR(EnclosedVolume(mesh), EnclosedVolume(rest), 0.05 * EnclosedVolume(rest));
-}
-
-TEST(TemplateDistance, IsTheLengthOfWarps) {
-  const BodyModel body = TinyBody(3);
-  BoneTransforms bones = PosedArm(body.skeleton);
-  std::vector<Vector3f> posed;
-  SkinLinear(body.rest.vertices, body.weights, bones, posed);
-  const TemplateDistance distance(body.rest.vertices, body);
-  const std::size_t warped = 7;  // one of many vertices of its bone
-  EXPECT_LT(std::ranges::max(distance.Of(posed)), 1e-4f);
-  posed[warped] += Vector3f(0.0f, 0.0f, 0.05f);
-  EXPECT_NEAR(distance.Of(posed)[warped], 0.05f, 0.005f);
 }
 
 class ViewerPage : public testing::Test {
