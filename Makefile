@@ -7,7 +7,10 @@ SHELL := /bin/bash
 # Debian 12. To build and test; nothing else is needed but make itself.
 PACKAGES := g++ cmake ninja-build pkgconf git ccache \
   nlohmann-json3-dev libfmt-dev libcli11-dev libeigen3-dev libboost-dev libopenmesh-dev libflann-dev \
-  liblz4-dev libcairo2-dev fonts-liberation libosmesa6-dev libceres-dev libopencv-dev libvtk9-dev libgtest-dev libgmock-dev
+  liblz4-dev zlib1g-dev libcairo2-dev fonts-liberation libosmesa6-dev libceres-dev libopencv-dev \
+  libvtk9-dev libtinygltf-dev libjs-three libgtest-dev libgmock-dev
+# Some tests open pages in it; without it they are skipped and say so.
+BROWSER_PACKAGES := chromium
 NPM_PACKAGES := nodejs npm ca-certificates
 # Pinned: other versions format and warn differently.
 FORMAT_PACKAGES := clang-format-14
@@ -40,6 +43,7 @@ figures: packages build data  ## all figures of both papers on one page: out/rep
 	build/vitruvia reproduce -j $(JOBS) $(if $(FIGURES),--only $(FIGURES))
 
 test: packages build/build.ninja  ## build everything and run all tests; VITRUVIA_DATA=... adds those on real input
+	@cmake/install_packages.sh $(BROWSER_PACKAGES) || echo "The tests in a browser will be skipped." >&2
 	@cmake --build build --parallel $(JOBS)
 	ctest --test-dir build -j$(TEST_JOBS) --output-on-failure
 

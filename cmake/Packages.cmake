@@ -10,12 +10,16 @@ find_package(CLI11 2.1 REQUIRED)
 find_package(VTK 9.1 REQUIRED COMPONENTS
   CommonColor CommonCore CommonDataModel FiltersCore FiltersGeneral FiltersSources IOCore IOImage IOXML
   RenderingAnnotation RenderingCore RenderingFreeType RenderingOpenGL2)
+find_package(ZLIB REQUIRED)
+find_package(TinyGLTF REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
 pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo cairo-pdf)
 pkg_check_modules(FLANN REQUIRED IMPORTED_TARGET flann)
 pkg_check_modules(OPENMESH REQUIRED openmesh)
 set(OpenMesh_VERSION ${OPENMESH_VERSION})  # its CMake config does not say; run records do
+# The viewer's pages carry it: they need no network.
+find_file(THREE_SCRIPT three.min.js PATHS /usr/share/javascript/three REQUIRED)
 
 # Third-party headers are not ours to warn about.
 foreach(target nlohmann_json::nlohmann_json fmt::fmt Eigen3::Eigen PkgConfig::OSMESA PkgConfig::CAIRO PkgConfig::FLANN)

@@ -38,6 +38,7 @@
 #include "experiments/cli/sufficient_command.h"
 #include "experiments/cli/track_command.h"
 #include "experiments/cli/verify_command.h"
+#include "experiments/cli/view_command.h"
 #include "experiments/plan/run_plan.h"
 
 namespace vitruvia {
@@ -115,6 +116,7 @@ void AddCommands(CLI::App& app, Arguments& a) {
   AddSufficientCommand(app);
   AddReproduceCommand(app);
   AddRescoreCommand(app);
+  AddViewCommand(app);
   AddExportCommand(app);
   AddImportCommand(app);
   AddReportCommand(app);
@@ -152,8 +154,8 @@ int RunCommandLine(int argc, const char* const* argv) {
     if (app.get_subcommands().empty()) {
       throw ConfigError(
           "expected a command: list, synth, import, verify, learn, scan, fit, rig, subject, track, "
-          "run, status, submit, rescore, export, report, index, compare, sufficient, reproduce, "
-          "regress, "
+          "run, status, submit, rescore, view, export, report, index, compare, sufficient, "
+          "reproduce, regress, "
           "schema or explain (--help)");
     }
     if (std::fflush(stdout) != 0) FailToWrite("standard output", errno);

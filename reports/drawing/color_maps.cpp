@@ -51,6 +51,16 @@ Color ErrorColor(double share) {
   return Interpolated(kColors, share);
 }
 
+Color BoneColor(int bone) {
+  const double hue = std::fmod(0.618033988749895 * bone, 1.0) * 6.0;
+  const auto channel = [hue](double offset) {
+    const double k = std::fmod(offset + hue, 6.0);
+    const double fall = std::clamp(std::min(k, 4.0 - k), 0.0, 1.0);
+    return static_cast<std::uint8_t>(std::lround(255.0 * (0.92 - 0.55 * fall)));
+  };
+  return {channel(5.0), channel(3.0), channel(1.0)};
+}
+
 double ErrorScaleEnd(std::vector<double> errors, double smallest) {
   constexpr double kShareWithin = 0.98;
   if (errors.empty()) return smallest;

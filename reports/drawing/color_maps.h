@@ -16,6 +16,9 @@ Color DepthColor(double share);
 // Error: pale is none, dark violet is the scale's end and beyond. `share` is error / scale.
 Color ErrorColor(double share);
 
+// Neighbouring bones have different hues: the golden angle round the circle of colours.
+Color BoneColor(int bone);
+
 // Where an error scale ends: a round number that holds 98 % of `errors`, and `smallest` at least.
 double ErrorScaleEnd(std::vector<double> errors, double smallest);
 

@@ -1,7 +1,7 @@
 #include "reports/export/mesh_export.h"
 
-#include <numeric>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <vtkCellArray.h>
@@ -15,9 +15,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "metrics/vertex_error.h"
-#include "records/estimate.h"
-#include "records/run_record.h"
-#include "sequence/sequence.h"
+#include "reports/export/exported_run.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -79,32 +77,18 @@ void WriteCollection(const fs::path& folder, const char* surface, const std::vec
                      items + "  </Collection>\n</VTKFile>\n");
 }
 
-void RequireFrames(const std::vector<int>& frames, int count, const std::string& run_id) {
-  for (const int frame : frames) {
-    if (frame >= 0 && frame < count) continue;
-    throw DataError(
-        fmt::format("{}: there is no frame {}: expected 0 … {}", run_id, frame, count - 1));
-  }
-}
-
 }  // namespace
 
 int ExportMeshes(const fs::path& experiment_folder, const std::string& run_id,
                  std::vector<int> frames, const fs::path& output) {
-  const RunRecord record = ReadRunRecord(experiment_folder, run_id);
-  const EstimateReader estimate(experiment_folder / run_id / "estimate");
-  const SequenceReader sequence(experiment_folder / record.sequence_folder);
-  const auto count = static_cast<int>(estimate.frames().size());
-  RequireFrames(frames, count, run_id);
-  if (frames.empty()) {
-    frames.resize(count);
-    std::iota(frames.begin(), frames.end(), 0);
-  }
+  const ExportedRun run = OpenForExport(experiment_folder, run_id, std::move(frames));
+  const EstimateReader& estimate = run.estimate;
+  const SequenceReader& sequence = run.sequence;
   const bool has_truth = sequence.info().surface;
   std::optional<RestCorrespondence> correspondence;
   if (has_truth) correspondence.emplace(estimate.rest_mesh(), sequence.true_rest_mesh());
   StagedFolder folder(output, kCollectionName);
-  for (const int frame : frames) {
+  for (const int frame : run.frames) {
     const std::vector<Vector3f> estimated = estimate.ReadVertices(frame);
     const auto estimated_surface = SurfaceData(estimated, estimate.rest_mesh().triangles);
     if (has_truth) {
@@ -115,10 +99,10 @@ int ExportMeshes(const fs::path& experiment_folder, const std::string& run_id,
     }
     WriteSurface(folder.path() / FrameFileName("estimate", frame), *estimated_surface);
   }
-  WriteCollection(folder.path(), "estimate", frames, sequence.info().fps);
-  if (has_truth) WriteCollection(folder.path(), "truth", frames, sequence.info().fps);
+  WriteCollection(folder.path(), "estimate", run.frames, sequence.info().fps);
+  if (has_truth) WriteCollection(folder.path(), "truth", run.frames, sequence.info().fps);
   folder.Commit();
-  return static_cast<int>(frames.size());
+  return static_cast<int>(run.frames.size());
 }
 
 }  // namespace vitruvia

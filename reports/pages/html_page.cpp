@@ -11,6 +11,7 @@
 #include "reports/drawing/html_text.h"
 #include "reports/pages/comparison_section.h"
 #include "reports/pages/picture_section.h"
+#include "reports/pages/viewer_link.h"
 
 namespace vitruvia {
 namespace {
@@ -163,12 +164,15 @@ std::string StepSection(const ReportedExperiment& experiment) {
 
 std::string SummaryCell(const nlohmann::json& cell, const Metric& column) {
   const std::string value = cell.is_string() ? cell.get<std::string>() : cell.dump();
-  return fmt::format("<td class=\"{}\"{}>{}</td>",
-                     column.key == "run_id" ? "run"
-                     : cell.is_string()     ? ""
-                                            : "n",
+  return fmt::format("<td class=\"{}\"{}>{}</td>", cell.is_string() ? "" : "n",
                      cell.is_null() ? "" : fmt::format(" data-value=\"{}\"", Escaped(value)),
                      Escaped(PrintedCell(cell, column)));
+}
+
+std::string RunIdCell(const std::string& run_id, const ReportedExperiment& experiment) {
+  return fmt::format(
+      "<td class=\"run\" data-value=\"{}\">{}</td>", Escaped(run_id),
+      RunWithViewer(run_id, ViewerLink(experiment.folder, run_id, experiment.folder)));
 }
 
 std::string RunsSection(const ReportedExperiment& experiment) {
@@ -184,10 +188,12 @@ std::string RunsSection(const ReportedExperiment& experiment) {
     html += "<tr>";
     if (row.problem.empty()) {
       for (std::size_t i = 0; i < row.cells.size(); ++i) {
-        html += SummaryCell(row.cells[i], table.columns[i]);
+        html += table.columns[i].key == "run_id"
+                    ? RunIdCell(row.cells[i].get<std::string>(), experiment)
+                    : SummaryCell(row.cells[i], table.columns[i]);
       }
     } else {
-      html += SummaryCell(row.cells.front(), table.columns.front()) +
+      html += RunIdCell(row.cells.front().get<std::string>(), experiment) +
               fmt::format("<td class=\"problem\" colspan=\"{}\">{}</td>", row.cells.size() - 1,
                           Escaped(row.problem));
     }

@@ -9,6 +9,7 @@
 #include "reports/drawing/thumbnail.h"
 #include "reports/figures/history_figure.h"
 #include "reports/pages/index_page.h"
+#include "reports/pages/viewer_link.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -46,6 +47,10 @@ IndexedExperiment ReadIndexed(const fs::path& folder, const fs::path& top) {
     indexed.link = (folder / kPage).lexically_relative(top).generic_string();
   const fs::path speed = folder / "figures" / "speed-against-error.svg";
   if (fs::exists(speed)) indexed.speed_svg = ReadWholeFile(speed);
+  for (const ReportedRun& run : indexed.experiment.runs) {
+    const std::string link = ViewerLink(folder, run.run_id, top);
+    if (!link.empty()) indexed.viewers[run.run_id] = link;
+  }
   for (const ReportedRun& run : indexed.experiment.runs) {
     const fs::path pictures = folder / "figures" / ("pictures-" + run.run_id + ".png");
     if (!fs::exists(pictures)) continue;

@@ -8,6 +8,7 @@
 #include "analysis/tables.h"
 #include "records/metric_value.h"
 #include "reports/drawing/html_text.h"
+#include "reports/pages/viewer_link.h"
 
 namespace vitruvia {
 namespace {
@@ -117,13 +118,13 @@ std::string ExperimentCard(const IndexedExperiment& indexed) {
       experiment.runs.size(),
       absent == 0 ? "" : fmt::format(", <b class=\"missed\">{} failed or missing</b>", absent),
       Escaped(experiment.record.description));
-  if (!indexed.picture_png.empty()) {
-    html += fmt::format("<img src=\"{}\" alt=\"Pictures of a run of {}\">",
-                        DataUri(indexed.picture_png), Escaped(experiment.record.title));
-  }
   if (!indexed.speed_svg.empty()) {
     html += "<figure class=\"plot\">" + InlineSvg(indexed.speed_svg, "Speed against error") +
             "</figure>";
+  }
+  if (!indexed.picture_png.empty()) {
+    html += fmt::format("<img src=\"{}\" alt=\"Pictures of a run of {}\">",
+                        DataUri(indexed.picture_png), Escaped(experiment.record.title));
   }
   return html + "</article>\n";
 }
@@ -138,7 +139,10 @@ std::string RunRow(const IndexedExperiment& indexed, const ReportedRun& run,
                    const std::vector<Metric>& columns) {
   std::string html = "<tr>" + TextCell(LinkTo(indexed, indexed.experiment.record.name),
                                        indexed.experiment.record.name);
-  html += fmt::format("<td class=\"run\" data-value=\"{0}\">{0}</td>", Escaped(run.run_id));
+  const auto viewer = indexed.viewers.find(run.run_id);
+  html +=
+      fmt::format("<td class=\"run\" data-value=\"{}\">{}</td>", Escaped(run.run_id),
+                  RunWithViewer(run.run_id, viewer == indexed.viewers.end() ? "" : viewer->second));
   if (!run.record) {
     return html + fmt::format("<td class=\"problem\" colspan=\"{}\">{}</td></tr>\n",
                               columns.size() + 1, Escaped(run.problem));

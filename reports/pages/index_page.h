@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,9 @@ namespace vitruvia {
 struct IndexedExperiment {
   std::string link;  // its report, relative to the page; "" where there is none
   ReportedExperiment experiment;
-  std::string speed_svg;    // the file's content; "" where there is none
-  std::string picture_png;  // a small one
+  std::string speed_svg;                       // the file's content; "" where there is none
+  std::string picture_png;                     // a small one
+  std::map<std::string, std::string> viewers;  // run id → link, of the runs that have one
 };
 
 // The last verdict of a regression gate and its history.

@@ -62,17 +62,6 @@ double ErrorScale(const std::vector<SurfaceStrip>& strips) {
   return errors.empty() ? 0.0 : ErrorScaleEnd(std::move(errors), kSmallestSurfaceScale_m);
 }
 
-// Neighbouring bones have different hues: the golden angle round the circle of colours.
-Color BoneColor(int bone) {
-  const double hue = std::fmod(0.618033988749895 * bone, 1.0) * 6.0;
-  const auto channel = [hue](double offset) {
-    const double k = std::fmod(offset + hue, 6.0);
-    const double fall = std::clamp(std::min(k, 4.0 - k), 0.0, 1.0);
-    return static_cast<std::uint8_t>(std::lround(255.0 * (0.92 - 0.55 * fall)));
-  };
-  return {channel(5.0), channel(3.0), channel(1.0)};
-}
-
 Color BlendedBoneColor(float value) {
   const int bone = static_cast<int>(std::floor(value));
   const double share = value - std::floor(value);

@@ -1,0 +1,15 @@
+# Writes OUTPUT, a source file that holds the text of FILES (NAME FILE NAME FILE …; paths relative to
+# FOLDER) as constants; HEADER declares them.
+set(source "#include \"${HEADER}\"\n\nnamespace vitruvia {\n")
+list(LENGTH FILES count)
+math(EXPR last "${count} - 1")
+foreach(i RANGE 0 ${last} 2)
+  math(EXPR at_file "${i} + 1")
+  list(GET FILES ${i} name)
+  list(GET FILES ${at_file} file)
+  get_filename_component(file ${file} ABSOLUTE BASE_DIR ${FOLDER})
+  file(READ ${file} text)
+  string(APPEND source "\nconst char* const ${name} = R\"embedded(${text})embedded\";\n")
+endforeach()
+string(APPEND source "\n}  // namespace vitruvia\n")
+file(WRITE ${OUTPUT} "${source}")

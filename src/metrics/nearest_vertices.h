@@ -1,0 +1,14 @@
+// Which vertex of one mesh stands where a vertex of another does, in a pose that both share.
+#pragma once
+
+#include <vector>
+
+#include "geometry/mesh.h"
+
+namespace vitruvia {
+
+// For each point the index of the nearest of `vertices`, which must not be empty.
+std::vector<int> NearestVertices(const std::vector<Vector3f>& points,
+                                 const std::vector<Vector3f>& vertices);
+
+}  // namespace vitruvia
