@@ -112,6 +112,25 @@ TEST(Dynamic, SaysLostWhenTheDataAreElsewhere) {
   }
 }
 
+// What the frame shows of the body is enough to go on, but an arm is missing.
+TEST(Dynamic, SaysLostWhenAreasAreWatchedAndALimbIsContradicted) {
+  const auto outcome_without_arm = [](double lost_above) {
+    Stage stage;
+    Settings settings;
+    settings.watch.lost_above = lost_above;
+    Dynamic tracker(settings, HumanSkeleton());
+    tracker.Start(stage.body, stage.camera);
+    EXPECT_FALSE(IsFailure(tracker.TrackFrame(stage.Frame(0, 0.0)).outcome));
+    DepthFrame frame = stage.Frame(1, 0.0);
+    for (int v = 0; v < frame.depth.height(); ++v) {
+      for (int u = 0; u < 125; ++u) frame.depth(u, v) = 0.0f;
+    }
+    return tracker.TrackFrame(frame).outcome;
+  };
+  EXPECT_FALSE(IsFailure(outcome_without_arm(0.0)));
+  EXPECT_EQ(outcome_without_arm(0.03), Outcome::kLost);
+}
+
 TEST(Dynamic, FewPointsAmongManyOthersDoNotCarryTheBodyAway) {
   Stage stage;
   Dynamic tracker(Settings{}, HumanSkeleton());

@@ -196,6 +196,7 @@ void Dynamic::WatchAreas(const DepthFrame& frame) {
   s.watch->verdict.Assess(here);
   if (!s.watch->verdict.is_search_due()) return;
   const FoundStart found = s.start_search->Find(s.watch->meter.StrayDepth(frame.depth), {});
+  if (found.camera_from_rest.empty()) return;  // too few points to search in
   const Rigidd place_before = s.camera_from_start;
   const Eigen::VectorXd theta_before = s.theta;
   const auto take = [&](const Rigidd& camera_from_start, const Eigen::VectorXd& theta) {
