@@ -8,8 +8,8 @@ find_package(Boost 1.74 REQUIRED)  # Boost.Math, headers only
 find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgcodecs imgproc)
 find_package(CLI11 2.1 REQUIRED)
 find_package(VTK 9.1 REQUIRED COMPONENTS
-  CommonColor CommonCore CommonDataModel FiltersCore FiltersGeneral FiltersSources IOCore IOImage IOXML
-  RenderingAnnotation RenderingCore RenderingFreeType RenderingOpenGL2)
+  CommonColor CommonCore CommonDataModel FiltersCore FiltersGeneral FiltersSources IOCore IOGeometry IOImage
+  IOXML RenderingAnnotation RenderingCore RenderingFreeType RenderingOpenGL2)
 find_package(ZLIB REQUIRED)
 find_package(TinyGLTF REQUIRED)
 find_package(PkgConfig REQUIRED)
