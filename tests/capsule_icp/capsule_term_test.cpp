@@ -94,7 +94,7 @@ TEST_F(CapsuleTermTest, AStepGoesTowardsTheTruth) {
 
 // Of the distance of one point from the capsules, as the state changes.
 TEST_F(CapsuleTermTest, ClosestPointRowIsTheDerivative) {
-  constexpr double kStep = 1e-3;
+  constexpr double kStep = 1e-4;
   const BodyState state = RandomState(15.0, 9);
   const std::vector<Capsule> capsules = FitCapsules(body_, 2);
   PosedCapsules posed(capsules);
