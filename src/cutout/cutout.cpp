@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <map>
 
 #include <fmt/format.h>
@@ -125,18 +124,6 @@ CutoutReport ReportCutout(const std::vector<FollowedPerson>& people, const Chose
   report.pixel_share = Mean(seen_shares);
   for (auto& [frame, reason] : why) report.unsure.push_back({frame, std::move(reason)});
   return report;
-}
-
-double MaskOverlap(const MaskImage& mask, const MaskImage& truth, const DepthImage& depth) {
-  long shared = 0, either = 0;
-  for (std::size_t i = 0; i < depth.pixels().size(); ++i) {
-    if (!(depth.pixels()[i] > 0.0f)) continue;
-    const bool a = mask.pixels()[i] != 0, b = truth.pixels()[i] != 0;
-    shared += a && b ? 1 : 0;
-    either += a || b ? 1 : 0;
-  }
-  return either == 0 ? std::numeric_limits<double>::quiet_NaN()
-                     : static_cast<double>(shared) / static_cast<double>(either);
 }
 
 }  // namespace vitruvia

@@ -51,8 +51,4 @@ CutoutReport ReportCutout(const std::vector<FollowedPerson>& people, const Chose
                           const std::vector<double>& pixel_shares,
                           const FollowingSettings& settings);
 
-// How well a mask agrees with the true one, over the pixels that are measured: shared / either.
-// NaN where both are empty.
-double MaskOverlap(const MaskImage& mask, const MaskImage& truth, const DepthImage& depth);
-
 }  // namespace vitruvia

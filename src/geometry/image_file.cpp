@@ -24,22 +24,10 @@ std::string EndingOf(const std::filesystem::path& file) {
   return ending;
 }
 
-// OpenCV reads and writes OpenEXR only if this variable is set before its first use.
+// OpenCV reads OpenEXR only if this variable is set before its first use.
 void AllowOpenExr() {
   static const int done = setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 0);
   static_cast<void>(done);
-}
-
-int TypeOf(StoredNumbers numbers) {
-  switch (numbers) {
-    case StoredNumbers::kBits8:
-      return CV_8UC1;
-    case StoredNumbers::kBits16:
-      return CV_16UC1;
-    case StoredNumbers::kFloat:
-      return CV_32FC1;
-  }
-  return CV_32FC1;
 }
 
 }  // namespace
@@ -68,19 +56,6 @@ Image<float> ReadImageFile(const std::filesystem::path& file) {
   cv::Mat values(raw.rows, raw.cols, CV_32FC1, image.pixels().data());
   raw.convertTo(values, CV_32F);
   return image;
-}
-
-void WriteImageFile(const std::filesystem::path& file, const Image<float>& image,
-                    StoredNumbers numbers) {
-  AllowOpenExr();
-  const cv::Mat values(image.height(), image.width(), CV_32FC1,
-                       const_cast<float*>(image.pixels().data()));
-  cv::Mat stored;
-  values.convertTo(stored, TypeOf(numbers));
-  std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(EndingOf(file), stored, bytes))
-    throw RunError(fmt::format("{}: cannot be encoded", file.string()));
-  WriteWholeFile(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace vitruvia

@@ -14,10 +14,4 @@ bool IsImageFile(const std::filesystem::path& file);
 // or has more than one channel.
 Image<float> ReadImageFile(const std::filesystem::path& file);
 
-// By the ending of the name. Whole numbers are rounded and must fit. For tests and small tools:
-// the sequence format has its own writers.
-enum class StoredNumbers { kBits8, kBits16, kFloat };
-void WriteImageFile(const std::filesystem::path& file, const Image<float>& image,
-                    StoredNumbers numbers);
-
 }  // namespace vitruvia

@@ -184,18 +184,6 @@ TEST_F(Following, LargestNearestAndPixelChooseDifferentPeople) {
   EXPECT_FALSE(ChoosePerson({}, PersonSettings(), 0).has_value());
 }
 
-TEST(MaskOverlap, CountsMeasuredPixelsAlone) {
-  const DepthImage depth(4, 1, 1.0f);
-  MaskImage a(4, 1), b(4, 1);
-  a.pixels() = {255, 255, 255, 0};
-  b.pixels() = {0, 255, 255, 255};
-  EXPECT_DOUBLE_EQ(MaskOverlap(a, b, depth), 0.5);
-  DepthImage holes = depth;
-  holes.pixels()[0] = 0.0f;
-  EXPECT_DOUBLE_EQ(MaskOverlap(a, b, holes), 2.0 / 3.0);
-  EXPECT_TRUE(std::isnan(MaskOverlap(MaskImage(4, 1), MaskImage(4, 1), depth)));
-}
-
 TEST(PackedLabelImages, KeepEveryNumber) {
   Image<std::uint8_t> labels(7, 5);
   for (std::size_t i = 0; i < labels.pixels().size(); ++i)

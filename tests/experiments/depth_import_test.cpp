@@ -16,10 +16,23 @@
 #include "geometry/depth_png.h"
 #include "geometry/image_file.h"
 #include "sequence/sequence.h"
+#include "support/written_image.h"
 #include "synth/scene/scene.h"
 
 namespace vitruvia {
 namespace {
+
+// How well a mask agrees with the true one, over the pixels that are measured: shared / either.
+double MaskOverlap(const MaskImage& mask, const MaskImage& truth, const DepthImage& depth) {
+  long shared = 0, either = 0;
+  for (std::size_t i = 0; i < depth.pixels().size(); ++i) {
+    if (!(depth.pixels()[i] > 0.0f)) continue;
+    const bool a = mask.pixels()[i] != 0, b = truth.pixels()[i] != 0;
+    shared += a && b ? 1 : 0;
+    either += a || b ? 1 : 0;
+  }
+  return static_cast<double>(shared) / static_cast<double>(either);
+}
 
 namespace fs = std::filesystem;
 using testing::AllOf;
@@ -118,7 +131,7 @@ class DepthImport : public testing::Test {
   void MakeBoxes(int frames) {
     fs::create_directory(files_ / "boxes");
     for (int i = 0; i < frames; ++i)
-      WriteImageFile(files_ / fmt::format("boxes/{:03}.png", i), Box(i), StoredNumbers::kBits16);
+      WriteImageFile(files_ / fmt::format("boxes/{:03}.png", i), Box(i), CV_16UC1);
     config_ = {
         {"images", "boxes"},
         {"camera",
@@ -171,7 +184,7 @@ TEST_F(DepthImport, FormatsUnitsAndOrientationsAgree) {
   MakeBoxes(12);
   ASSERT_EQ(Import("plain").code, 0);
   const std::string expected = SequenceReader(files_ / "plain").hash();
-  const auto same = [&](const std::string& ending, double unit_m, StoredNumbers numbers,
+  const auto same = [&](const std::string& ending, double unit_m, int numbers,
                         const std::function<Image<float>(const Image<float>&)>& change) {
     fs::remove_all(files_ / "other");
     fs::create_directory(files_ / "other");
@@ -187,15 +200,15 @@ TEST_F(DepthImport, FormatsUnitsAndOrientationsAgree) {
     EXPECT_EQ(SequenceReader(files_ / "changed").hash(), expected) << ending;
   };
   const auto as_is = [](const Image<float>& image) { return image; };
-  same(".pgm", 0.001, StoredNumbers::kBits16, as_is);
-  same(".tiff", 1.0, StoredNumbers::kFloat, as_is);
-  same(".exr", 1.0, StoredNumbers::kFloat, as_is);
-  same(".png", 0.02, StoredNumbers::kBits8, as_is);
+  same(".pgm", 0.001, CV_16UC1, as_is);
+  same(".tiff", 1.0, CV_32FC1, as_is);
+  same(".exr", 1.0, CV_32FC1, as_is);
+  same(".png", 0.02, CV_8UC1, as_is);
   // The camera lay on its side: what it calls right is down.
   config_["camera"] = {{"width", 60}, {"height", 80}, {"fx", 71},
                        {"fy", 71},    {"cx", 29.5},   {"cy", 39.5}};
   config_["orientation"] = {{"turn", "clockwise_90"}};
-  same(".png", 0.001, StoredNumbers::kBits16, [](const Image<float>& image) {
+  same(".png", 0.001, CV_16UC1, [](const Image<float>& image) {
     Image<float> turned(60, 80);
     for (int v = 0; v < 80; ++v) {
       for (int u = 0; u < 60; ++u) turned(u, v) = image(79 - v, u);

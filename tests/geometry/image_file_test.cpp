@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "support/temporary_folder.h"
+#include "support/written_image.h"
 
 namespace vitruvia {
 namespace {
@@ -22,17 +23,17 @@ Image<float> Ramp(float step) {
 
 TEST(ImageFile, EveryKindGivesBackItsNumbers) {
   const TemporaryFolder folder;
-  const auto same = [&](const std::string& name, const Image<float>& image, StoredNumbers numbers) {
+  const auto same = [&](const std::string& name, const Image<float>& image, int numbers) {
     EXPECT_TRUE(IsImageFile(folder / name));
     WriteImageFile(folder / name, image, numbers);
     EXPECT_EQ(ReadImageFile(folder / name).pixels(), image.pixels()) << name;
   };
-  same("8.png", Ramp(7.0f), StoredNumbers::kBits8);
-  same("16.png", Ramp(1900.0f), StoredNumbers::kBits16);
-  same("16.PGM", Ramp(1900.0f), StoredNumbers::kBits16);
-  same("16.tiff", Ramp(1900.0f), StoredNumbers::kBits16);
-  same("float.tif", Ramp(0.123f), StoredNumbers::kFloat);
-  same("float.exr", Ramp(0.123f), StoredNumbers::kFloat);
+  same("8.png", Ramp(7.0f), CV_8UC1);
+  same("16.png", Ramp(1900.0f), CV_16UC1);
+  same("16.PGM", Ramp(1900.0f), CV_16UC1);
+  same("16.tiff", Ramp(1900.0f), CV_16UC1);
+  same("float.tif", Ramp(0.123f), CV_32FC1);
+  same("float.exr", Ramp(0.123f), CV_32FC1);
 }
 
 TEST(ImageFile, NumbersThatAreNotFiniteStay) {
@@ -40,7 +41,7 @@ TEST(ImageFile, NumbersThatAreNotFiniteStay) {
   Image<float> image = Ramp(0.5f);
   image(1, 1) = std::numeric_limits<float>::quiet_NaN();
   image(2, 1) = std::numeric_limits<float>::infinity();
-  WriteImageFile(folder / "a.tiff", image, StoredNumbers::kFloat);
+  WriteImageFile(folder / "a.tiff", image, CV_32FC1);
   const Image<float> read = ReadImageFile(folder / "a.tiff");
   EXPECT_TRUE(std::isnan(read(1, 1)));
   EXPECT_TRUE(std::isinf(read(2, 1)));
@@ -48,7 +49,7 @@ TEST(ImageFile, NumbersThatAreNotFiniteStay) {
 
 TEST(ImageFile, DamagedFilesAreNamed) {
   const TemporaryFolder folder;
-  WriteImageFile(folder / "a.png", Ramp(1900.0f), StoredNumbers::kBits16);
+  WriteImageFile(folder / "a.png", Ramp(1900.0f), CV_16UC1);
   const std::string whole = ReadWholeFile(folder / "a.png");
   for (const std::string& content : {std::string(), std::string("text"), whole.substr(0, 40)}) {
     WriteWholeFile(folder / "a.png", content);
