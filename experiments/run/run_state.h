@@ -61,8 +61,8 @@ struct StoredPlan {
   void Describe(Fields& fields);
   static void Upgrade(Json& file, int version);
 };
-// Folders of runs that the experiment no longer has, since its file was changed: each has a run.json
-// or a record.json, and no process carries it out. In order of their names.
+// Folders of runs that the experiment no longer has, since its file was changed: each has a
+// run.json or a record.json, and no process carries it out. In order of their names.
 std::vector<std::filesystem::path> OldRunFolders(const std::filesystem::path& experiment_folder,
                                                  const StoredPlan& plan);
 

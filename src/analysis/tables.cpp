@@ -60,10 +60,10 @@ std::vector<std::string> MembersOf(const std::vector<const RunRecord*>& runs,
   std::vector<std::string> keys;
   for (const RunRecord* run : runs) {
     for (const auto& item : run->summary.items()) {
-      const bool known =
-          std::find(keys.begin(), keys.end(), item.key()) != keys.end() ||
-          std::any_of(columns.begin(), columns.end(),
-                      [&](const Metric& column) { return column.key == item.key(); });
+      const bool known = std::find(keys.begin(), keys.end(), item.key()) != keys.end() ||
+                         std::any_of(columns.begin(), columns.end(), [&](const Metric& column) {
+                           return column.key == item.key();
+                         });
       if (!known) keys.push_back(item.key());
     }
   }
