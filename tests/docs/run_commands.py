@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Runs the commands of README.md and docs/*.md: run_commands.py SOURCE PROGRAM [--slow]
+"""The commands of README.md and docs/*.md: run_commands.py SOURCE PROGRAM [--run] [--slow]
 
-Every block of sh is carried out, page by page, in a folder that has the checkout's files and the
+Of each command in a block of sh, subcommand, options and config files are looked for. With --run
+every block is also carried out, page by page, in a folder that has the checkout's files and the
 program as build/vitruvia. A comment before a block says what else it is: <!-- slow --> is carried
-out with --slow only, <!-- sketch --> has placeholders. Of these the options and files of each
-command are still checked.
+out with --run --slow only, <!-- sketch --> has placeholders and is never carried out.
 """
 import os
 import re
@@ -57,7 +57,7 @@ def problems_of(command, program, source):
 
 def main():
     source, program = sys.argv[1:3]
-    slow = "--slow" in sys.argv
+    run, slow = "--run" in sys.argv, "--slow" in sys.argv
     docs = os.path.join(source, "docs")
     pages = [os.path.join(source, "README.md")]
     pages += sorted(os.path.join(docs, f) for f in os.listdir(docs) if f.endswith(".md"))
@@ -70,14 +70,14 @@ def main():
                 for line in block.splitlines():
                     failures += [f"{name}: {line}: there is no {p}"
                                  for p in problems_of(line, program, source)]
-                if kind == "sketch" or (kind == "slow" and not slow):
+                if not run or kind == "sketch" or (kind == "slow" and not slow):
                     continue
                 done = subprocess.run(["bash", "-euc", block], cwd=folder, capture_output=True,
                                       text=True)
                 if done.returncode != 0:
                     failures.append(f"{name}: exit code {done.returncode} of:\n{block}"
                                     f"{done.stderr[-2000:]}")
-    print("\n".join(failures) or f"all commands of {len(pages)} pages work")
+    print("\n".join(failures) or f"all commands of {len(pages)} pages {'work' if run else 'exist'}")
     return 1 if failures else 0
 
 
