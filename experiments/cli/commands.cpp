@@ -162,7 +162,8 @@ int RunCommandLine(int argc, const char* const* argv) {
     if (app.get_subcommands().empty()) {
       throw ConfigError(
           "expected a command: list, synth, import, verify, learn, scan, fit, rig, subject, track, "
-          "run, status, submit, rescore, view, export, report, index, compare, sufficient, regress, "
+          "run, status, submit, rescore, view, export, report, index, compare, sufficient, "
+          "regress, "
           "schema or explain (--help)");
     }
     if (std::fflush(stdout) != 0) FailToWrite("standard output", errno);
