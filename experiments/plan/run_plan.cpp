@@ -189,7 +189,7 @@ std::vector<SweptSetting> SweptSettings(const ExperimentSettings& settings) {
   VariantSettings unswept;
   if (!settings.variants.empty()) unswept = settings.variants.front();
   const RunPlan plain = PlanRun(RecordingsOf(settings).front(), settings.methods.front(), unswept,
-                                settings.seeds.front(), settings.score);
+                                settings.seeds.front(), settings);
   for (const SweepAxis& axis : settings.sweep.axes)
     swept.push_back({axis.setting, axis.scale, ValueAt(plain.resolved, axis.setting)});
   return swept;

@@ -1,4 +1,4 @@
-#include "reports/figures/contender_plots.h"
+#include "reports//figures/contender_plots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,7 @@
 #include "math/statistics.h"
 #include "records/metric_value.h"
 #include "reports/drawing/color_maps.h"
+#include "reports/figures/figure_parts.h"
 
 namespace vitruvia {
 namespace {
@@ -26,7 +27,7 @@ Series NamedSeries(const std::string& name, std::size_t index) {
   return series;
 }
 
-Series MeanCurve(const Contender& contender, const char* joints, std::size_t index) {
+Series AccuracyCurve(const Contender& contender, const char* joints, std::size_t index) {
   Series line = NamedSeries(contender.name, index);
   int count = 0;
   for (const RunRecord* run : contender.runs) {
@@ -57,7 +58,7 @@ Figure AccuracyOf(const std::vector<Contender>& contenders) {
     Panel panel{title, "threshold (cm)", "joints within threshold (%)", {}, {}, {}};
     panel.y_end = 100.0;
     for (std::size_t c = 0; c < contenders.size(); ++c) {
-      Series line = MeanCurve(contenders[c], joints, c);
+      Series line = AccuracyCurve(contenders[c], joints, c);
       if (line.x.empty()) continue;
       panel.x_end = line.x.back();
       panel.series.push_back(std::move(line));
@@ -65,15 +66,6 @@ Figure AccuracyOf(const std::vector<Contender>& contenders) {
     if (!panel.series.empty()) figure.panels.push_back(std::move(panel));
   }
   return figure;
-}
-
-std::vector<std::string> ScenesOf(const std::vector<const RunRecord*>& runs) {
-  std::vector<std::string> scenes;
-  for (const RunRecord* run : runs) {
-    if (std::find(scenes.begin(), scenes.end(), run->scene) == scenes.end())
-      scenes.push_back(run->scene);
-  }
-  return scenes;
 }
 
 double MeanInScene(const Contender& contender, const std::string& scene, const Metric& metric) {

@@ -1,5 +1,6 @@
 #include "reports/figures/figure_parts.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 
@@ -45,5 +46,14 @@ std::string FileSafe(std::string text) {
 }
 
 Color VariantColor(std::size_t index) { return kRunColors[index % kRunColors.size()]; }
+
+std::vector<std::string> ScenesOf(const std::vector<const RunRecord*>& runs) {
+  std::vector<std::string> scenes;
+  for (const RunRecord* run : runs) {
+    if (std::find(scenes.begin(), scenes.end(), run->scene) == scenes.end())
+      scenes.push_back(run->scene);
+  }
+  return scenes;
+}
 
 }  // namespace vitruvia

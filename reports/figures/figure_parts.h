@@ -22,6 +22,9 @@ inline constexpr const char* kBandText =
 // Notes what a name in the legend stands for.
 void AddRuns(const std::string& name, const std::vector<const RunRecord*>& runs, Figure& figure);
 
+// The scenes of the runs, in their order.
+std::vector<std::string> ScenesOf(const std::vector<const RunRecord*>& runs);
+
 // A name as part of a file's name: letters, digits, - and _.
 std::string FileSafe(std::string text);
 

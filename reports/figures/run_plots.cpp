@@ -36,15 +36,6 @@ struct PlotGroup {
   std::vector<VariantRuns> variants;
 };
 
-std::vector<std::string> ScenesOf(const Runs& runs) {
-  std::vector<std::string> scenes;
-  for (const RunRecord* run : runs) {
-    if (std::find(scenes.begin(), scenes.end(), run->scene) == scenes.end())
-      scenes.push_back(run->scene);
-  }
-  return scenes;
-}
-
 // The runs with frames of each scene, by variant.
 std::vector<PlotGroup> Grouped(const ReportedExperiment& experiment) {
   const std::vector<Contender> contenders = ContendersOf(experiment);

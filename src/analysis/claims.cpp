@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "analysis/paired_comparison.h"
@@ -56,11 +57,13 @@ const RunRecord* PartnerOf(const RunRecord& run, const RunList& candidates) {
 
 struct PairedValues {
   std::vector<double> of, against;
+  Groups differences;  // of − against, by scene
 };
 
 PairedValues PairsOf(const ClaimTest& test, const Metric& metric,
                      const std::vector<ReportedExperiment>& experiments) {
   PairedValues values;
+  std::map<std::string, std::vector<double>> differences;
   for (const ReportedExperiment& experiment : experiments) {
     const RunList candidates = RunsOf(test.against, test, experiment);
     for (const RunRecord* run : RunsOf(test.of, test, experiment)) {
@@ -70,8 +73,10 @@ PairedValues PairsOf(const ClaimTest& test, const Metric& metric,
       if (std::isnan(of) || std::isnan(against)) continue;
       values.of.push_back(of);
       values.against.push_back(against);
+      differences[run->scene].push_back(of - against);
     }
   }
+  for (auto& [scene, of_scene] : differences) values.differences.push_back(std::move(of_scene));
   return values;
 }
 
@@ -152,7 +157,7 @@ void DecidePairs(const ClaimTest& test, const Metric& metric,
                               : fmt::format("no run of {} has {}", test.against, metric.key);
     return;
   }
-  const PairedComparison comparison = ComparePairs(values.against, values.of);
+  const PairedComparison comparison = ComparePairs(values.differences);
   finding.ours = fmt::format("{} against {}", Printed(Mean(values.of), metric),
                              WithUnit(Printed(Mean(values.against), metric), metric));
   const int fewest = FewestPairs(BootstrapSettings{}.confidence);

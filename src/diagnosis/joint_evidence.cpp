@@ -99,7 +99,7 @@ double GapOfLimb(const Segments& segments, int joint,
   return gap_m;
 }
 
-JointPositions KnownJoints(const SequenceReader& sequence, const JointTruth& truth) {
+JointPositions TrueJoints(const SequenceReader& sequence, const JointTruth& truth) {
   JointPositions joints(kBoneCount);
   for (std::size_t j = 0; j < truth.positions.size(); ++j) {
     const int bone = FindJoint(sequence.info().joints[j]);
@@ -199,7 +199,7 @@ std::vector<FrameEvidence> GatherEvidence(const SequenceReader& sequence) {
   for (int frame = 0; frame < sequence.info().frames; ++frame) {
     ThrowIfInterrupted();
     const JointTruth& truth = sequence.true_joints(frame);
-    FrameEvidence evidence{KnownJoints(sequence, truth), std::vector<JointEvidence>(kBoneCount)};
+    FrameEvidence evidence{TrueJoints(sequence, truth), std::vector<JointEvidence>(kBoneCount)};
     const Segments segments = BoneSegments(evidence.truth);
     const PixelsOfBones pixels =
         CountPixels(sequence.ReadDepth(frame), clean.Render(frame), camera, segments, radii_m);

@@ -28,7 +28,7 @@ Eigen::VectorXd Residuals(const ShapedBody& body, const BodyState& state,
   return residuals;
 }
 
-BodyState Moved(BodyState state, const Eigen::VectorXd& step) {
+BodyState MovedJoints(BodyState state, const Eigen::VectorXd& step) {
   state.rotation = ExpSo3<double>(step.segment<3>(PosedBody::kRotation)) * state.rotation;
   state.pelvis_position += step.segment<3>(PosedBody::kPosition);
   state.angles_deg = WithinLimits(state.angles_deg + step.segment<kAngleCount>(PosedBody::kAngles) /
@@ -63,7 +63,7 @@ Eigen::MatrixXd Jacobian(const ShapedBody& body, const BodyState& state, const K
   for (int p = 0; p < kParameters; ++p) {
     Eigen::VectorXd step = Eigen::VectorXd::Zero(kParameters);
     step[p] = kStep;
-    jacobian.col(p) = (residuals - Residuals(body, Moved(state, step), known)) / kStep;
+    jacobian.col(p) = (residuals - Residuals(body, MovedJoints(state, step), known)) / kStep;
   }
   return jacobian;
 }
@@ -92,7 +92,7 @@ BodyState FittedToJoints(const ShapedBody& body, BodyState start, const KnownJoi
     Eigen::VectorXd step = hessian.ldlt().solve(gradient);
     const double longest = step.cwiseAbs().maxCoeff();
     if (longest > kLongestStep) step *= kLongestStep / longest;
-    state = Moved(std::move(state), step);
+    state = MovedJoints(std::move(state), step);
   }
   return state;
 }

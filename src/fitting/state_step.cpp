@@ -59,9 +59,8 @@ Eigen::VectorXd SolveWithinLimits(const Eigen::MatrixXd& hessian, const Eigen::V
 BodyState Moved(BodyState state, const Eigen::VectorXd& step) {
   state.rotation = ExpSo3<double>(step.segment<3>(PosedBody::kRotation)) * state.rotation;
   state.pelvis_position += step.segment<3>(PosedBody::kPosition);
-  state.angles_deg += step.segment<kAngleCount>(PosedBody::kAngles) / kRadiansPerDegree;
-  state.angles_deg =
-      state.angles_deg.cwiseMax(JointLimits().min_deg).cwiseMin(JointLimits().max_deg);
+  state.angles_deg = WithinLimits(state.angles_deg + step.segment<kAngleCount>(PosedBody::kAngles) /
+                                                         kRadiansPerDegree);
   state.theta += step.tail(state.theta.size());
   return state;
 }

@@ -22,10 +22,10 @@ const ShapeSpace& SmallSpace() {
 RegistrationSettings QuickSettings() {
   RegistrationSettings settings;
   settings.components = 5;
-  settings.headings = 4;
+  settings.search.headings = 4;
   settings.clothing = Clothing::kNone;
-  settings.coarse_vertices = 300;
-  settings.fine_vertices = 1000;
+  settings.search.coarse_vertices = 300;
+  settings.search.fine_vertices = 1000;
   settings.surface_points = 6000;
   return settings;
 }

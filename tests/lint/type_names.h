@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "lint/layering.h"
+#include "layering.h"
 
 namespace vitruvia::lint {
 

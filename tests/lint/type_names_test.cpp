@@ -1,5 +1,5 @@
 // No two types of one name in one namespace, in the whole tree.
-#include "lint/type_names.h"
+#include "type_names.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

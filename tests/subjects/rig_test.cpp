@@ -22,10 +22,10 @@ const ShapeSpace& SmallSpace() {
 RigSettings QuickSettings() {
   RigSettings settings;
   settings.registration.components = 4;
-  settings.registration.headings = 2;
+  settings.registration.search.headings = 2;
   settings.registration.clothing = Clothing::kNone;
-  settings.registration.coarse_vertices = 300;
-  settings.registration.fine_vertices = 1000;
+  settings.registration.search.coarse_vertices = 300;
+  settings.registration.search.fine_vertices = 1000;
   settings.registration.surface_points = 5000;
   settings.weights.alternations = 4;
   return settings;
