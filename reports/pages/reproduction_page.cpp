@@ -169,8 +169,8 @@ std::vector<Figure> PlotsOf(const FigureRecords& records) {
   return plots;
 }
 
-std::vector<DrawnFigure> DrawTrees(DrawingWriter& writer, const FigureRecords& records,
-                                   const fs::path& folder) {
+std::vector<DrawnFigure> DrawTrees(const FigureRecords& records, const fs::path& folder) {
+  const DrawingWriter writer;
   std::vector<DrawnFigure> drawn;
   for (const ReportedExperiment& experiment : records.experiments) {
     for (const RunRecord* run : experiment.finished()) {
@@ -245,8 +245,7 @@ std::string Origins(const ReproductionList& list, const FigureRecords& records) 
 }
 
 std::string FigureSection(const ReproductionList& list, const FigureRecords& records,
-                          const ClaimDecision& decision, DrawingWriter& writer,
-                          const fs::path& plots_folder) {
+                          const ClaimDecision& decision, const fs::path& plots_folder) {
   const ReproducedFigure& figure = records.figure;
   std::string html =
       fmt::format("<section id=\"{}\"><h2>{}: {}</h2>\n<p>{}</p>\n", Escaped(figure.id),
@@ -262,8 +261,8 @@ std::string FigureSection(const ReproductionList& list, const FigureRecords& rec
   html += TestsTable(figure, decision);
   for (const ShownTable& table : figure.tables) html += TableHtml(table, records.experiments);
   html += PicturesHtml(records);
-  for (const DrawnFigure& tree : DrawTrees(writer, records, plots_folder)) html += FigureHtml(tree);
-  for (const DrawnFigure& plot : DrawFigures(writer, PlotsOf(records), plots_folder))
+  for (const DrawnFigure& tree : DrawTrees(records, plots_folder)) html += FigureHtml(tree);
+  for (const DrawnFigure& plot : DrawFigures(PlotsOf(records), plots_folder))
     html += FigureHtml(plot);
   return html + Origins(list, records) + "</section>\n";
 }
@@ -276,13 +275,12 @@ void WriteReproductionPage(const ReproductionList& list, const std::vector<Figur
   for (const FigureRecords& records : figures) decisions.push_back(DecideFigure(records));
   std::string body = Header(list, figures, decisions) + "<main>\n" + Overview(figures, decisions);
 
-  DrawingWriter writer;
   MakeFolder(page.parent_path());
   StagedFolder plots_folder(fs::path(page).replace_extension(), kPlotsMark);
   WriteWholeFile(plots_folder.path() / kPlotsMark,
                  "Drawn by vitruvia; drawn anew with each page.\n");
   for (std::size_t i = 0; i < figures.size(); ++i)
-    body += FigureSection(list, figures[i], decisions[i], writer, plots_folder.path());
+    body += FigureSection(list, figures[i], decisions[i], plots_folder.path());
   plots_folder.Commit();
   WriteWholeFile(page, PageOf(list.title, body + "</main>\n"));
 }
