@@ -44,9 +44,10 @@ void PrintTable(const std::vector<VariantComparison>& rows) {
                  Printed(row.reference_spread.mean, row.metric));
     }
     metric = row.metric.key;
-    fmt::print("  {:<40} {:>12}  {:>34} {:>9}  {:>3} pairs, {}  {}{}\n", row.other,
+    const std::string scenes = row.comparison.scenes > 1 ? ", " + UnitsText(row.comparison) : "";
+    fmt::print("  {:<40} {:>12}  {:>34} {:>9}  {:>3} pairs{}  {}{}\n", row.other,
                Printed(row.other_spread.mean, row.metric), DifferenceText(row), RelativeText(row),
-               row.comparison.difference.count, UnitsText(row.comparison), VerdictText(row),
+               row.comparison.difference.count, scenes, VerdictText(row),
                row.unpaired == 0 ? "" : fmt::format("; {} runs without a partner", row.unpaired));
   }
   fmt::print("{}\n", MethodText(rows.size()));

@@ -1,4 +1,4 @@
-#include "reports//figures/contender_plots.h"
+#include "reports/figures/contender_plots.h"
 
 #include <algorithm>
 #include <cmath>

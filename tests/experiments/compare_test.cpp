@@ -45,7 +45,7 @@ TEST_F(Compare, TheSameRunsOfTwoFoldersDoNotDiffer) {
                     "-o", files_.File("table.csv")});
   ASSERT_EQ(outcome.code, static_cast<int>(ExitCode::kSuccess)) << outcome.error;
   EXPECT_THAT(outcome.out, HasSubstr("second: all"));
-  EXPECT_THAT(ReadWholeFile(files_.File("table.csv")), HasSubstr(",2,0,"));
+  EXPECT_THAT(ReadWholeFile(files_.File("table.csv")), HasSubstr("second: method/all\",1,0,"));
 }
 
 TEST_F(Compare, BadInputIsNamed) {
@@ -59,14 +59,15 @@ TEST_F(Compare, BadInputIsNamed) {
     EXPECT_THAT(outcome.error, HasSubstr(words));
   };
   const std::string out = files_.File("out");
-  refused({}, ExitCode::kBadConfiguration, "DIR is required");
+  refused({}, ExitCode::kBadConfiguration, "EXPERIMENT is required");
   refused({files_.File("nowhere")}, ExitCode::kBadData, "nowhere");
   refused({out, "--reference", "al"}, ExitCode::kBadConfiguration,
           "no variant \"al\"; there are: all, no_axis");
   refused({out, "--metric", "l2_men_m"}, ExitCode::kBadConfiguration,
           "did you mean \"l2_mean_m\"?");
   refused({out, out, "--reference", "all"}, ExitCode::kBadConfiguration, "got two folders");
-  refused({out, "-o", "table.txt"}, ExitCode::kBadConfiguration, "ends in .json or .csv");
+  refused({out, "-o", "table.txt"}, ExitCode::kBadConfiguration,
+          "ends in .tex, .csv, .md or .json");
 }
 
 }  // namespace

@@ -116,6 +116,7 @@ std::string KindOf(const fs::path& file, const Json& config) {
   const auto found = folders.find(file.lexically_relative(configs).begin()->string());
   if (found != folders.end()) return found->second;
   if (config.contains("experiments")) return "regression";
+  if (config.contains("method")) return "method";
   if (config.contains("figures")) return "reproduction";
   return config.value("kind", "tracking") == "tracking" ? "experiment"
                                                         : config.at("kind").get<std::string>();

@@ -44,10 +44,10 @@ TEST_F(SharedSweep, ShardsJobsAndOneByOneGiveTheSameResult) {
   EXPECT_EQ(result.at("rows").size(), 4u);
   EXPECT_EQ(ResultOf(files_ / "shards"), result);
   const Json variants = result.at("variants");
-  EXPECT_EQ(variants.at("reference"), "default,axis_weight=0");
+  EXPECT_EQ(variants.at("reference"), "axis_weight=1");
   ASSERT_EQ(variants.at("rows").size(), 2u);
   EXPECT_EQ(variants["rows"][1]["runs"], 2);
-  EXPECT_EQ(variants["rows"][1]["metrics"]["l2_mean_of_diagonal"]["difference"]["pairs"], 2);
+  EXPECT_EQ(variants["rows"][0]["metrics"]["l2_mean_of_diagonal"]["difference"]["pairs"], 2);
   const std::string summary = ReadWholeFile(files_ / "single/summary.json");
   EXPECT_LT(summary.find("\"variants\""), summary.find("\"rows\": [\n    {\n      \"case\""));
   const std::string page = ReadWholeFile(files_ / "single/report.html");

@@ -112,8 +112,9 @@ void ExpectFigures(const fs::path& figures) {
     EXPECT_EQ(png.height, 2 * std::stoi(size[2])) << entry.path();
     EXPECT_FALSE(png.uniform) << entry.path();
   }
-  // Error, accuracy and time for each of two scenes, speed against error, pictures of three runs.
-  EXPECT_EQ(pairs, 3 * 2 + 1 + 3);
+  // Error, accuracy and time for each of two scenes, speed against error, times of the steps,
+  // pictures of three runs.
+  EXPECT_EQ(pairs, 3 * 2 + 1 + 1 + 3);
 }
 
 TEST(Report, IsWhole) {

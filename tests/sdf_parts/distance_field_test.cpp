@@ -32,9 +32,12 @@ TEST(DistanceField, OfASphereIsTheAnalyticOne) {
     ASSERT_TRUE(field.Covers(x));
     const double expected = double{x.norm()} - kRadius_m;
     const DistanceField::Sample sample = field.At(x);
+    if (x.norm() < 2.0f * static_cast<float>(kCell_m)) continue;  // the distance has a tip there
     EXPECT_NEAR(sample.distance_m, expected, 0.1 * kCell_m) << x.transpose();
     if (std::abs(expected) < 2.0 * kCell_m) {
-      EXPECT_GT(sample.gradient.dot(x.normalized()), 0.97f);
+      // Trilinear interpolation shortens it where distances are convex.
+      EXPECT_GT(sample.gradient.normalized().dot(x.normalized()), 0.99f);
+      EXPECT_NEAR(sample.gradient.norm(), 1.0f, 0.1f);
     }
   }
   EXPECT_FALSE(field.Covers({0.26f, 0.0f, 0.0f}));

@@ -89,7 +89,7 @@ TEST_F(PartsTermTest, AStepGoesTowardsTheTruth) {
 // Model to observation alone draws an arm out of empty space.
 TEST_F(PartsTermTest, ThePredictionIsDrawnBackFromEmptySpace) {
   settings_.observed.weight = 0.0;
-  EXPECT_LT(Step(Depth(WithArmLowered(70.0)), FacingState())[kLeftAbduction], -0.03);
+  EXPECT_LT(Step(Depth(WithArmLowered(70.0)), FacingState())[kLeftAbduction], -0.02);
 }
 
 // The row of a point against central differences of its distance in the moved part's field.
