@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 
 #include "core/error.h"
+#include "fitting/state_step.h"
 #include "math/angles.h"
 #include "math/rotation.h"
 
@@ -26,14 +27,6 @@ Eigen::VectorXd Residuals(const ShapedBody& body, const BodyState& state,
         known.joints[k].position - joints[static_cast<std::size_t>(known.joints[k].joint)];
   }
   return residuals;
-}
-
-BodyState MovedJoints(BodyState state, const Eigen::VectorXd& step) {
-  state.rotation = ExpSo3<double>(step.segment<3>(PosedBody::kRotation)) * state.rotation;
-  state.pelvis_position += step.segment<3>(PosedBody::kPosition);
-  state.angles_deg = WithinLimits(state.angles_deg + step.segment<kAngleCount>(PosedBody::kAngles) /
-                                                         kRadiansPerDegree);
-  return state;
 }
 
 // Turned about the vertical through its pelvis, and moved, so that it is nearest.
@@ -63,7 +56,7 @@ Eigen::MatrixXd Jacobian(const ShapedBody& body, const BodyState& state, const K
   for (int p = 0; p < kParameters; ++p) {
     Eigen::VectorXd step = Eigen::VectorXd::Zero(kParameters);
     step[p] = kStep;
-    jacobian.col(p) = (residuals - Residuals(body, MovedJoints(state, step), known)) / kStep;
+    jacobian.col(p) = (residuals - Residuals(body, Moved(state, step), known)) / kStep;
   }
   return jacobian;
 }
@@ -92,7 +85,7 @@ BodyState FittedToJoints(const ShapedBody& body, BodyState start, const KnownJoi
     Eigen::VectorXd step = hessian.ldlt().solve(gradient);
     const double longest = step.cwiseAbs().maxCoeff();
     if (longest > kLongestStep) step *= kLongestStep / longest;
-    state = MovedJoints(std::move(state), step);
+    state = Moved(std::move(state), step);
   }
   return state;
 }

@@ -61,7 +61,7 @@ BodyState Moved(BodyState state, const Eigen::VectorXd& step) {
   state.pelvis_position += step.segment<3>(PosedBody::kPosition);
   state.angles_deg = WithinLimits(state.angles_deg + step.segment<kAngleCount>(PosedBody::kAngles) /
                                                          kRadiansPerDegree);
-  state.theta += step.tail(state.theta.size());
+  if (step.size() > PosedBody::kShape) state.theta += step.tail(state.theta.size());
   return state;
 }
 

@@ -11,7 +11,8 @@ namespace vitruvia {
 Eigen::VectorXd SolveWithinLimits(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient,
                                   const AngleVector& angles_deg, int free_count);
 
-// The state moved by a step in the parameters of PosedBody, with its angles within their limits.
+// The state moved by a step in the parameters of PosedBody, of which the shape may be left out; its
+// angles stay within their limits.
 BodyState Moved(BodyState state, const Eigen::VectorXd& step);
 
 }  // namespace vitruvia
