@@ -208,7 +208,8 @@ TEST(ModelStudy, TreesHaveTheirNodesInTheOrderOfParents) {
   const auto special = std::count_if(bones.nodes.begin(), bones.nodes.end(),
                                      [](const auto& node) { return !node.detail.empty(); });
   EXPECT_EQ(special, 7);
-  const BoneTree skeleton = TreeOfSkeleton(kConfigs / "skeletons" / "human.json");
+  const BoneTree skeleton = TreeOfSkeleton(
+      ReadModelSkeleton(kConfigs / "skeletons" / "human.json", MakeControlBody({}).skeleton));
   EXPECT_EQ(skeleton.Problem(), "");
   EXPECT_EQ(skeleton.nodes.front().name, "pelvis");
   EXPECT_EQ(skeleton.nodes.front().detail, "3 slides, 3 hinges");
