@@ -52,15 +52,6 @@ void TreeSettings::Describe(Fields& f) {
              .min = 10,
              .max = 10000000,
              .origin = Origin::kGuessed});
-  f.Number(
-      "parts_apart_nats", parts_apart_nats,
-      {.meaning = "entropy of the body parts in a node below which its splits make pixels "
-                  "agree on the ends of their bone; 0: none does",
-       .unit = "nats",
-       .min = 0.0,
-       .max = 10.0,
-       .origin = Origin::kGuessed,
-       .source = "Girshick et al. 2011 split by parts alone, with a hundred times the images"});
   f.Number("reach_m", reach_m,
            {.meaning = "how far from a pixel features look at most",
             .unit = "m",

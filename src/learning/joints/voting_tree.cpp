@@ -10,81 +10,12 @@ namespace {
 
 constexpr int kBins = 32;  // of a feature's values, between which thresholds lie
 
+using PartCounts = std::array<int, kBoneCount>;
+
 struct Split {
   DepthFeature feature;
   float threshold = 0.0f;
-  double cost = std::numeric_limits<double>::infinity();  // of both sides
-};
-
-// What the pixels of one side of a split cost: count · entropy of their parts, nats.
-class PartCost {
- public:
-  void Add(const TrainingPixel& pixel) {
-    ++counts_[pixel.bone];
-    ++count_;
-  }
-  void Add(const PartCost& other) {
-    for (int part = 0; part < kBoneCount; ++part) counts_[part] += other.counts_[part];
-    count_ += other.count_;
-  }
-  void Remove(const PartCost& other) {
-    for (int part = 0; part < kBoneCount; ++part) counts_[part] -= other.counts_[part];
-    count_ -= other.count_;
-  }
-  int count() const { return count_; }
-  double Cost() const {
-    if (count_ == 0) return 0.0;
-    double sum = count_ * std::log(static_cast<double>(count_));
-    for (const int part : counts_) {
-      if (part > 0) sum -= part * std::log(static_cast<double>(part));
-    }
-    return sum;
-  }
-
- private:
-  std::array<int, kBoneCount> counts_{};
-  int count_ = 0;
-};
-
-// The far end of each bone: its tip, or the joint of the last bone that hangs on it.
-std::array<int, kBoneCount> FarEnds() {
-  std::array<int, kBoneCount> ends{};
-  const auto& points = BodyPoints();
-  for (int p = 0; p < kBodyPointCount; ++p) {
-    if (points[p].parent >= 0) ends[points[p].parent] = p;
-  }
-  return ends;
-}
-
-// What they cost: squared deviations of the offsets to both ends of their bone from the mean, m².
-class OffsetCost {
- public:
-  void Add(const TrainingPixel& pixel) {
-    static const std::array<int, kBoneCount> ends = FarEnds();
-    Eigen::Vector<double, 6> offset;
-    offset << (*pixel.points)[pixel.bone] - pixel.position.cast<double>(),
-        (*pixel.points)[ends[pixel.bone]] - pixel.position.cast<double>();
-    sum_ += offset;
-    square_ += offset.squaredNorm();
-    ++count_;
-  }
-  void Add(const OffsetCost& other) {
-    sum_ += other.sum_;
-    square_ += other.square_;
-    count_ += other.count_;
-  }
-  void Remove(const OffsetCost& other) {
-    sum_ -= other.sum_;
-    square_ -= other.square_;
-    count_ -= other.count_;
-  }
-  int count() const { return count_; }
-  double Cost() const { return count_ == 0 ? 0.0 : square_ - sum_.squaredNorm() / count_; }
-
- private:
-  Eigen::Vector<double, 6> sum_ = Eigen::Vector<double, 6>::Zero();
-  double square_ = 0.0;
-  int count_ = 0;
+  double entropy = 0.0;  // of the two sides, times their numbers of pixels
 };
 
 // Even over the disc of radius reach_m.
@@ -105,6 +36,16 @@ DepthFeature DrawFeature(double reach_m, RandomStream& random) {
   feature.other_x = other_x;
   feature.other_y = other_y;
   return feature;
+}
+
+// count · entropy, nats.
+double EntropyOf(const PartCounts& counts, int count) {
+  if (count == 0) return 0.0;
+  double sum = count * std::log(static_cast<double>(count));
+  for (const int part : counts) {
+    if (part > 0) sum -= part * std::log(static_cast<double>(part));
+  }
+  return sum;
 }
 
 class Grower {
@@ -150,47 +91,43 @@ class Grower {
     tried_.clear();
     for (std::size_t i = 0; i < count; ++i) tried_.push_back(&pixels[i * pixels.size() / count]);
     values_.resize(count);
-    return ArePartsApart() ? BestSplit<OffsetCost>() : BestSplit<PartCost>();
-  }
-
-  bool ArePartsApart() const {
-    PartCost parts;
-    for (const TrainingPixel* pixel : tried_) parts.Add(*pixel);
-    return parts.Cost() < settings_.parts_apart_nats * parts.count();
-  }
-
-  template <class Cost>
-  Split BestSplit() {
     Split best;
+    best.entropy = std::numeric_limits<double>::infinity();
     for (int c = 0; c < settings_.candidates; ++c) {
-      const Split split = BestThreshold<Cost>(DrawFeature(settings_.reach_m, random_));
-      if (split.cost < best.cost) best = split;
+      const Split split = BestThreshold(DrawFeature(settings_.reach_m, random_));
+      if (split.entropy < best.entropy) best = split;
     }
     return best;
   }
 
-  template <class Cost>
   Split BestThreshold(const DepthFeature& feature) {
     for (std::size_t i = 0; i < tried_.size(); ++i)
       values_[i] = feature.Of(*tried_[i]->depth, tried_[i]->place);
     const auto [low, high] = std::minmax_element(values_.begin(), values_.end());
     Split best{feature};
+    best.entropy = std::numeric_limits<double>::infinity();
     if (!(*high > *low)) return best;
     const float lowest = *low, width = (*high - lowest) / kBins;
-    std::array<Cost, kBins> bins{};
-    Cost left, right;
+    std::array<PartCounts, kBins> bins{};
+    PartCounts right{};
     for (std::size_t i = 0; i < tried_.size(); ++i) {
       const int bin = std::min(kBins - 1, static_cast<int>((values_[i] - lowest) / width));
-      bins[bin].Add(*tried_[i]);
+      ++bins[bin][tried_[i]->bone];
+      ++right[tried_[i]->bone];
     }
-    for (const Cost& bin : bins) right.Add(bin);
+    PartCounts left{};
+    int left_count = 0;
+    const auto count = static_cast<int>(tried_.size());
     for (int bin = 0; bin + 1 < kBins; ++bin) {
-      left.Add(bins[bin]);
-      right.Remove(bins[bin]);
-      if (left.count() == 0 || right.count() == 0) continue;
-      const double cost = left.Cost() + right.Cost();
-      if (cost >= best.cost) continue;
-      best.cost = cost;
+      for (int part = 0; part < kBoneCount; ++part) {
+        left[part] += bins[bin][part];
+        right[part] -= bins[bin][part];
+        left_count += bins[bin][part];
+      }
+      if (left_count == 0 || left_count == count) continue;
+      const double entropy = EntropyOf(left, left_count) + EntropyOf(right, count - left_count);
+      if (entropy >= best.entropy) continue;
+      best.entropy = entropy;
       best.threshold = lowest + width * static_cast<float>(bin + 1);
     }
     return best;

@@ -1,9 +1,7 @@
 // A decision tree over depth features: from a pixel on a body to votes for where joints are.
 //
-// Its splits tell apart the body parts that pixels show (Shotton et al. 2011), and where these are
-// told apart, how the part lies: they make the pixels agree on the offsets to both ends of their
-// bone. Its leaves hold the mean offsets of the points that its training pixels agree on best
-// (Girshick et al. 2011).
+// Its splits tell apart the body parts that pixels show (Shotton et al. 2011); its leaves hold the
+// mean offsets of the points that its training pixels agree on best (Girshick et al. 2011).
 #pragma once
 
 #include <array>
@@ -39,7 +37,6 @@ struct TreeSettings {
   int least_pixels = 20;
   int candidates = 150;
   int split_pixels = 2000;
-  double parts_apart_nats = 0.3;
   double reach_m = 0.5;
 
   void Describe(Fields& fields);
@@ -68,8 +65,7 @@ struct VotingTree {
   }
 };
 
-// Each split is the one, of candidates drawn at random, that leaves the least entropy of the parts,
-// or the least spread of the offsets.
+// Each split is the one, of candidates drawn at random, that leaves the least entropy of the parts.
 // Reorders the pixels, of which there is one at least.
 VotingTree GrowTree(std::span<TrainingPixel> pixels, const TreeSettings& settings,
                     RandomStream& random);
