@@ -164,7 +164,8 @@ TEST(FigureTable, HasMeansOfEachContenderInItsScenes) {
                                         {"ours", "v", "a", 2, 0.020},
                                         {"ours", "v", "b", 1, 0.900},
                                         {"other", "v", "a", 1, 0.040}});
-  const ShownTable table{"t", TableRows::kContenders, {"a"}, {"joint_error_mean_m", "frame_ms_median"}};
+  const ShownTable table{
+      "t", TableRows::kContenders, {"a"}, {"joint_error_mean_m", "frame_ms_median"}};
   const std::vector<TableRow> rows = Tabulate(table, {made});
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0].name, "ours/v");
