@@ -40,7 +40,7 @@ demo: packages build  ## build, run figure 11 on the embedded body, and say wher
 	build/vitruvia run configs/$(DEMO).json
 	@echo "The report lies in out/$(DEMO)/report.html"
 
-figures: packages build data  ## all figures of both papers on one page: out/reproduction/index.html (interruptible; FIGURES=A11,B4)
+figures: packages build data models  ## all figures of both papers on one page: out/reproduction/index.html (interruptible; FIGURES=A11,B4)
 	build/vitruvia reproduce -j $(JOBS) $(if $(FIGURES),--only $(FIGURES))
 
 test: packages build/build.ninja  ## build everything and run all tests; VITRUVIA_DATA=... adds those on real input

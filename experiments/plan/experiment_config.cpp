@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/pattern.h"
 #include "experiments/plan/overrides.h"
 #include "metrics/catalogue.h"
 #include "scoring/summaries.h"
@@ -22,6 +23,9 @@ void VariantSettings::Describe(Fields& f) {
          {.meaning = "name of the variant: letters, digits, . _ -", .required = true});
   f.Text("description", description,
          {.meaning = "what the variant shows, for readers of the config"});
+  f.Texts("methods", methods,
+          {.meaning = "patterns (* ? [abc]) of the names of the method files that the variant is "
+                      "about; all if empty"});
   f.FreeJson("scene", scene, {.meaning = "overrides of the scene file (JSON merge patch)"});
   f.FreeJson("method", method, {.meaning = "overrides of the method file (JSON merge patch)"});
   f.File("subject", subject,
@@ -36,6 +40,10 @@ std::string VariantSettings::Problem() const {
     return fmt::format("name \"{}\": expected letters, digits, . _ - only", name);
   const std::string problem = OverridesProblem("scene", scene);
   return problem.empty() ? OverridesProblem("method", method) : problem;
+}
+
+bool IsAbout(const VariantSettings& variant, const fs::path& method_file) {
+  return MatchesAny(variant.methods, method_file.stem().string());
 }
 
 void ExpectationSettings::Describe(Fields& f) {
@@ -72,6 +80,27 @@ std::string ExpectationSettings::Problem() const {
 Expectation ExpectationSettings::AsRecorded() const {
   return {metric, paper, at_most, source, remark, not_comparable, at_least, scenes};
 }
+
+namespace {
+
+// A variant that is about none of the methods, or a method that no variant is about: nothing would
+// be run of it, and nobody told.
+std::string UnusedVariantOrMethod(const ExperimentSettings& settings) {
+  for (const VariantSettings& variant : settings.variants) {
+    if (std::ranges::none_of(settings.methods,
+                             [&](const fs::path& m) { return IsAbout(variant, m); }))
+      return fmt::format("variants: \"{}\" is about no method of the experiment: {}", variant.name,
+                         fmt::join(variant.methods, ", "));
+  }
+  for (const fs::path& method : settings.methods) {
+    const auto is_about_it = [&](const VariantSettings& v) { return IsAbout(v, method); };
+    if (!settings.variants.empty() && std::ranges::none_of(settings.variants, is_about_it))
+      return fmt::format("methods: no variant is about {}", method.stem().string());
+  }
+  return "";
+}
+
+}  // namespace
 
 void ExperimentSettings::Describe(Fields& f) {
   f.Text("kind", kind, {.meaning = "kind of the experiment: tracking"});
@@ -156,7 +185,7 @@ std::string ExperimentSettings::Problem() const {
     }
     names.push_back(variant.name);
   }
-  return "";
+  return UnusedVariantOrMethod(*this);
 }
 
 std::string ConfigName(const fs::path& file) {

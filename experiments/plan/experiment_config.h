@@ -23,6 +23,7 @@ inline constexpr double kFailedFramesLimit = 0.5;
 struct VariantSettings {
   std::string name;
   std::string description;
+  std::vector<std::string> methods;  // patterns of the methods that it is about; empty: all
   Json scene = Json::object();
   Json method = Json::object();
   // A subject file (fitted_subject.h) or the folder of a body (body_model.h). Without one the
@@ -69,6 +70,9 @@ struct ExperimentSettings {
   void Describe(Fields& fields);
   std::string Problem() const;
 };
+
+// Whether the variant is about the method of that file.
+bool IsAbout(const VariantSettings& variant, const std::filesystem::path& method_file);
 
 // The name of variants that an experiment without any has.
 inline constexpr const char* kDefaultVariant = "default";

@@ -188,8 +188,10 @@ std::vector<SweptSetting> SweptSettings(const ExperimentSettings& settings) {
   if (settings.sweep.axes.empty()) return swept;
   VariantSettings unswept;
   if (!settings.variants.empty()) unswept = settings.variants.front();
-  const RunPlan plain = PlanRun(RecordingsOf(settings).front(), settings.methods.front(), unswept,
-                                settings.seeds.front(), settings);
+  const auto method = std::find_if(settings.methods.begin(), settings.methods.end(),
+                                   [&](const fs::path& file) { return IsAbout(unswept, file); });
+  const RunPlan plain =
+      PlanRun(RecordingsOf(settings).front(), *method, unswept, settings.seeds.front(), settings);
   for (const SweepAxis& axis : settings.sweep.axes)
     swept.push_back({axis.setting, axis.scale, ValueAt(plain.resolved, axis.setting)});
   return swept;
@@ -225,8 +227,9 @@ ExperimentPlan PlanExperiment(const ExperimentSettings& settings, const fs::path
   RequireFewEnough(settings, variants.size(), experiment_file);
   for (const Recording& recording : RecordingsOf(settings)) {
     for (const fs::path& method : settings.methods) {
-      for (const VariantSettings& variant : variants)
-        AddRuns(recording, method, variant, settings, plan.runs);
+      for (const VariantSettings& variant : variants) {
+        if (IsAbout(variant, method)) AddRuns(recording, method, variant, settings, plan.runs);
+      }
     }
   }
   RequireDifferentRuns(plan.runs, experiment_file);

@@ -9,8 +9,6 @@
 #include "core/error.h"
 #include "experiments/plan/experiment_config.h"
 #include "experiments/studies/drawn_parts.h"
-#include "methods/dynamic/kinematic_tree.h"
-#include "methods/realtime_scape/terms/main_axes.h"
 #include "records/surface_strips.h"
 
 namespace vitruvia {
@@ -76,11 +74,11 @@ TriangleMesh RegionOf(const BodyModel& body, BoneId bone) {
 
 // The special bone, enlarged round the body's middle, and its axis as an arrow.
 std::vector<ShownSurface> EnlargedBone(const BodyModel& body) {
-  const auto& axes = realtime_scape::MainAxes();
-  const auto special =
-      std::find_if(axes.begin(), axes.end(),
-                   [](const realtime_scape::MainAxis& axis) { return axis.bone == kSpecialBone; });
-  Require(special != axes.end(), "{} has no main axis",
+  const std::vector<TurningBone> turning = BonesWithMainAxis();
+  const auto special = std::find_if(turning.begin(), turning.end(), [](const TurningBone& bone) {
+    return bone.bone == kSpecialBone;
+  });
+  Require(special != turning.end(), "{} has no main axis",
           Bones()[static_cast<int>(kSpecialBone)].name);
   const auto middle_of = [](const std::vector<Vector3f>& vertices) {
     return Vector3f(BoundingBox(vertices).center());
@@ -108,27 +106,27 @@ std::vector<SurfaceStrip> DrawBones(const BodyModel& body) {
             {"posed by linear blend skinning", 30.0, {RegionsOf(body, Posed(body))}}}}};
 }
 
-ShownSurface AxesOf(const dynamic::KinematicTree& tree, dynamic::JointType type) {
+ShownSurface AxesOf(const ModelSkeleton& skeleton, ModelJointType type) {
   ShownSurface axes;
-  axes.color = type == dynamic::JointType::kHinge ? SurfaceColor::kTruth : SurfaceColor::kEstimate;
-  for (const dynamic::TreeJoint& joint : tree.joints()) {
+  axes.color = type == ModelJointType::kHinge ? SurfaceColor::kTruth : SurfaceColor::kEstimate;
+  for (const ModelJoint& joint : skeleton.joints) {
     if (joint.type != type) continue;
     Append(Arrow(joint.place, joint.place + kAxisLength_m * joint.axis, kAxisWidth_m), axes.mesh);
   }
   return axes;
 }
 
-std::vector<SurfaceStrip> DrawSkeleton(const BodyModel& body, const fs::path& skeleton_file) {
-  const dynamic::KinematicTree tree(dynamic::ReadSkeletonFile(skeleton_file), body.skeleton);
-  const ShownSurface hinges = AxesOf(tree, dynamic::JointType::kHinge);
-  const ShownSurface slides = AxesOf(tree, dynamic::JointType::kPrismatic);
+std::vector<SurfaceStrip> DrawSkeleton(const BodyModel& body, const ModelSkeleton& skeleton) {
+  const ShownSurface hinges = AxesOf(skeleton, ModelJointType::kHinge);
+  const ShownSurface slides = AxesOf(skeleton, ModelJointType::kSlide);
   const ShownSurface surface{body.rest, SurfaceColor::kEstimate, {}};
-  return {{body.name,
-           fmt::format("{} joints; orange: axes of hinges, blue: of slides", tree.joint_count()),
-           {{"template in the bind pose", 0.0, {surface}},
-            {"regions of the links", 0.0, {RegionsOf(body, body.rest.vertices)}},
-            {"hinges and slides", 25.0, {BonesOf(body.skeleton), hinges, slides}},
-            {"hinges and slides, from the side", 75.0, {BonesOf(body.skeleton), hinges, slides}}}}};
+  return {
+      {body.name,
+       fmt::format("{} joints; orange: axes of hinges, blue: of slides", skeleton.joints.size()),
+       {{"template in the bind pose", 0.0, {surface}},
+        {"regions of the links", 0.0, {RegionsOf(body, body.rest.vertices)}},
+        {"hinges and slides", 25.0, {BonesOf(body.skeleton), hinges, slides}},
+        {"hinges and slides, from the side", 75.0, {BonesOf(body.skeleton), hinges, slides}}}}};
 }
 
 std::string Counted(int count, const char* what) {
@@ -165,45 +163,37 @@ void ModelStudySettings::Describe(Fields& f) {
 BoneTree TreeOfBones() {
   BoneTree tree;
   tree.title = "The tree of the 17 bones";
-  const auto& axes = realtime_scape::MainAxes();
+  const std::vector<TurningBone> turning = BonesWithMainAxis();
   for (int b = 0; b < kBoneCount; ++b) {
     const BoneInfo& bone = Bones()[b];
-    const bool is_special = std::any_of(
-        axes.begin(), axes.end(),
-        [b](const realtime_scape::MainAxis& axis) { return static_cast<int>(axis.bone) == b; });
+    const bool is_special = std::any_of(turning.begin(), turning.end(), [b](const TurningBone& t) {
+      return static_cast<int>(t.bone) == b;
+    });
     tree.nodes.push_back(
         {std::string(bone.name), is_special ? "turns about its main axis" : "", bone.parent});
   }
   return tree;
 }
 
-BoneTree TreeOfSkeleton(const fs::path& skeleton_file) {
-  const dynamic::SkeletonFile file = dynamic::ReadSkeletonFile(skeleton_file);
+BoneTree TreeOfSkeleton(const ModelSkeleton& skeleton) {
   BoneTree tree;
-  tree.title = fmt::format("The hinges and slides of {}", file.name);
+  tree.title = fmt::format("The hinges and slides of {}", skeleton.name);
   struct Counts {
     int hinges = 0, slides = 0;
   };
-  std::map<std::string, int> node_of_joint, node_of_place;
-  std::vector<Counts> counts;
-  // Parents may stand later in the file: joints are taken as soon as theirs is there.
-  std::vector<const dynamic::JointSettings*> open;
-  for (const dynamic::JointSettings& joint : file.joints) open.push_back(&joint);
-  while (!open.empty()) {
-    std::erase_if(open, [&](const dynamic::JointSettings* joint) {
-      const bool hangs_on_world = joint->parent == dynamic::kWorld;
-      if (!hangs_on_world && !node_of_joint.contains(joint->parent)) return false;
-      const auto [place, is_new] =
-          node_of_place.try_emplace(joint->at, static_cast<int>(tree.nodes.size()));
-      if (is_new) {
-        tree.nodes.push_back({joint->at, "", hangs_on_world ? -1 : node_of_joint[joint->parent]});
-        counts.emplace_back();
-      }
-      node_of_joint[joint->name] = place->second;
-      Counts& count = counts[static_cast<std::size_t>(place->second)];
-      ++(joint->type == dynamic::JointType::kHinge ? count.hinges : count.slides);
-      return true;
-    });
+  std::vector<Counts> counts;  // of the nodes' joints
+  std::map<std::string, int> node_of_place;
+  std::vector<int> node_of_joint;
+  for (const ModelJoint& joint : skeleton.joints) {
+    const auto [place, is_new] =
+        node_of_place.try_emplace(joint.at, static_cast<int>(tree.nodes.size()));
+    if (is_new) {
+      tree.nodes.push_back({joint.at, "", joint.parent < 0 ? -1 : node_of_joint[joint.parent]});
+      counts.emplace_back();
+    }
+    node_of_joint.push_back(place->second);
+    Counts& count = counts[static_cast<std::size_t>(place->second)];
+    ++(joint.type == ModelJointType::kHinge ? count.hinges : count.slides);
   }
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const std::string slides = Counted(counts[i].slides, "slide");
@@ -236,10 +226,14 @@ RunRecord CarryOutModelRun(const PlannedRun& run, const fs::path& run_folder) {
   const auto settings =
       ReadSettings<ModelDrawingSettings>(run.resolved.at("drawing"), ResolvedOrigin("drawing"));
   const BodyModel body = Refine(MakeControlBody(settings.body), settings.mesh);
-  const bool is_dynamic = settings.model == DrawnModel::kDynamic;
-  WriteSurfaceStrips(run_folder,
-                     is_dynamic ? DrawSkeleton(body, settings.skeleton) : DrawBones(body));
-  WriteBoneTree(run_folder, is_dynamic ? TreeOfSkeleton(settings.skeleton) : TreeOfBones());
+  if (settings.model == DrawnModel::kDynamic) {
+    const ModelSkeleton skeleton = ReadModelSkeleton(settings.skeleton, body.skeleton);
+    WriteSurfaceStrips(run_folder, DrawSkeleton(body, skeleton));
+    WriteBoneTree(run_folder, TreeOfSkeleton(skeleton));
+  } else {
+    WriteSurfaceStrips(run_folder, DrawBones(body));
+    WriteBoneTree(run_folder, TreeOfBones());
+  }
   RunRecord record;
   record.run_id = run.run_id;
   record.experiment = run.experiment;

@@ -7,6 +7,7 @@
 
 #include "body/skeleton.h"
 #include "experiments/plan/planned_run.h"
+#include "methods/model_structure.h"
 #include "records/bone_tree.h"
 #include "synth/bodies/body_source.h"
 
@@ -37,9 +38,9 @@ struct ModelStudySettings {
   void Describe(Fields& fields);
 };
 
-// The tree of the 17 bones, and that of a skeleton file: a node for each place, with its joints.
+// The tree of the 17 bones, and that of a skeleton: a node for each place, with its joints.
 BoneTree TreeOfBones();
-BoneTree TreeOfSkeleton(const std::filesystem::path& skeleton_file);
+BoneTree TreeOfSkeleton(const ModelSkeleton& skeleton);
 
 // One run. Throws ConfigError before anything has run.
 Experiment PlanModelStudy(const std::filesystem::path& file, const WorkFolders& work);

@@ -106,13 +106,9 @@ std::string TestsTable(const ReproducedFigure& figure, const ClaimDecision& deci
 
 // Leaves out the pictures whose titles match no pattern.
 void KeepPanels(const std::vector<std::string>& patterns, RunPictures& run) {
-  if (patterns.empty()) return;
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < run.titles.size(); ++i) {
-    const bool is_kept = std::any_of(
-        patterns.begin(), patterns.end(),
-        [&](const std::string& pattern) { return MatchesPattern(pattern, run.titles[i]); });
-    if (is_kept) kept.push_back(i);
+    if (MatchesAny(patterns, run.titles[i])) kept.push_back(i);
   }
   const auto keep = [&kept](auto& items) {
     std::remove_reference_t<decltype(items)> chosen;
@@ -188,12 +184,14 @@ std::vector<DrawnFigure> DrawTrees(const FigureRecords& records, const fs::path&
 }
 
 std::string TableHtml(const ShownTable& table, const std::vector<ReportedExperiment>& experiments) {
-  std::string head = "<th>method/variant</th><th class=\"n\">runs</th>", rows;
+  std::string head = fmt::format("<th>{}</th><th class=\"n\">runs</th>",
+                                 table.rows == TableRows::kMethods ? "method" : "method/variant");
+  std::string rows;
   for (const std::string& key : table.metrics)
     head += fmt::format("<th class=\"n\">{}</th>", Escaped(Titled(FindMetric(key))));
-  for (const ContenderRow& row : Tabulate(table, experiments)) {
-    rows += fmt::format("<tr><td class=\"run\">{}</td><td class=\"n\">{}</td>",
-                        Escaped(row.contender), row.runs);
+  for (const TableRow& row : Tabulate(table, experiments)) {
+    rows += fmt::format("<tr><td class=\"run\">{}</td><td class=\"n\">{}</td>", Escaped(row.name),
+                        row.runs);
     for (std::size_t m = 0; m < row.means.size(); ++m) {
       const Metric metric = FindMetric(table.metrics[m]);
       rows += fmt::format("<td class=\"n\">{}</td>",

@@ -15,21 +15,13 @@
 namespace vitruvia {
 namespace {
 
-bool IsAboutScene(const ClaimTest& test, const RunRecord& run) {
-  return test.scenes.empty() ||
-         std::any_of(test.scenes.begin(), test.scenes.end(), [&](const std::string& pattern) {
-           return MatchesPattern(pattern, run.scene);
-         });
-}
-
 using RunList = std::vector<const RunRecord*>;
 
 RunList RunsOf(const std::string& contender, const ClaimTest& test,
                const ReportedExperiment& experiment) {
   RunList runs = experiment.finished();
   std::erase_if(runs, [&](const RunRecord* run) {
-    return !MatchesPattern(contender, run->method + "/" + run->variant) ||
-           !IsAboutScene(test, *run);
+    return !MatchesPattern(contender, ContenderOf(*run)) || !MatchesAny(test.scenes, run->scene);
   });
   return runs;
 }

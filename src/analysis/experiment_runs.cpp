@@ -6,6 +6,8 @@
 namespace vitruvia {
 namespace fs = std::filesystem;
 
+std::string ContenderOf(const RunRecord& run) { return run.method + "/" + run.variant; }
+
 std::vector<const RunRecord*> ReportedExperiment::finished() const {
   std::vector<const RunRecord*> records;
   for (const ReportedRun& run : runs) {

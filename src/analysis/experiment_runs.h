@@ -10,6 +10,9 @@
 
 namespace vitruvia {
 
+// Who tracked: "method/variant".
+std::string ContenderOf(const RunRecord& run);
+
 struct ReportedRun {
   std::string run_id;
   std::optional<RunRecord> record;

@@ -12,14 +12,6 @@
 namespace vitruvia {
 namespace {
 
-bool MatchesAny(const std::vector<std::string>& patterns, const std::string& text) {
-  return patterns.empty() ||
-         std::any_of(patterns.begin(), patterns.end(),
-                     [&text](const std::string& pattern) { return MatchesPattern(pattern, text); });
-}
-
-std::string ContenderOf(const RunRecord& run) { return run.method + "/" + run.variant; }
-
 // "" if all runs are finished.
 std::string UnfinishedProblem(const std::vector<ReportedExperiment>& experiments) {
   std::size_t runs = 0, unfinished = 0;
@@ -37,11 +29,14 @@ std::string UnfinishedProblem(const std::vector<ReportedExperiment>& experiments
   return fmt::format("{} of {} runs have no record; {}", unfinished, runs, first);
 }
 
-ContenderRow& RowOf(std::vector<ContenderRow>& rows, const std::string& contender) {
-  const auto found = std::find_if(rows.begin(), rows.end(), [&](const ContenderRow& row) {
-    return row.contender == contender;
-  });
-  return found == rows.end() ? rows.emplace_back(ContenderRow{contender, 0, {}}) : *found;
+std::string RowName(const ShownTable& table, const RunRecord& run) {
+  return table.rows == TableRows::kMethods ? run.method : ContenderOf(run);
+}
+
+TableRow& RowOf(std::vector<TableRow>& rows, const std::string& name) {
+  const auto found =
+      std::find_if(rows.begin(), rows.end(), [&](const TableRow& row) { return row.name == name; });
+  return found == rows.end() ? rows.emplace_back(TableRow{name, 0, {}}) : *found;
 }
 
 }  // namespace
@@ -69,22 +64,22 @@ ReportedExperiment RunsThatMatch(const ReportedExperiment& experiment, const std
   return matching;
 }
 
-std::vector<ContenderRow> Tabulate(const ShownTable& table,
-                                   const std::vector<ReportedExperiment>& experiments) {
+std::vector<TableRow> Tabulate(const ShownTable& table,
+                               const std::vector<ReportedExperiment>& experiments) {
   std::vector<const RunRecord*> runs;
   for (const ReportedExperiment& experiment : experiments) {
     for (const RunRecord* run : experiment.finished()) {
       if (MatchesAny(table.scenes, run->scene)) runs.push_back(run);
     }
   }
-  std::vector<ContenderRow> rows;
-  for (const RunRecord* run : runs) ++RowOf(rows, ContenderOf(*run)).runs;
-  for (ContenderRow& row : rows) {
+  std::vector<TableRow> rows;
+  for (const RunRecord* run : runs) ++RowOf(rows, RowName(table, *run)).runs;
+  for (TableRow& row : rows) {
     for (const std::string& key : table.metrics) {
       std::vector<double> values;
       for (const RunRecord* run : runs) {
         const double value = MetricValue(*run, key);
-        if (ContenderOf(*run) == row.contender && !std::isnan(value)) values.push_back(value);
+        if (RowName(table, *run) == row.name && !std::isnan(value)) values.push_back(value);
       }
       row.means.push_back(values.empty() ? kAbsent : Mean(values));
     }

@@ -23,14 +23,14 @@ ClaimDecision DecideFigure(const FigureRecords& records);
 ReportedExperiment RunsThatMatch(const ReportedExperiment& experiment, const std::string& contender,
                                  const std::vector<std::string>& scenes);
 
-// One row of a table: means over the contender's runs in the scenes of the table.
-struct ContenderRow {
-  std::string contender;  // "method/variant"
+// One row of a table: means over its runs in the scenes of the table.
+struct TableRow {
+  std::string name;  // "method/variant" or "method"
   int runs = 0;
   std::vector<double> means;  // in the order of the table's metrics; NaN where no run has one
 };
 // In the order of the grids, over all the experiments together.
-std::vector<ContenderRow> Tabulate(const ShownTable& table,
-                                   const std::vector<ReportedExperiment>& experiments);
+std::vector<TableRow> Tabulate(const ShownTable& table,
+                               const std::vector<ReportedExperiment>& experiments);
 
 }  // namespace vitruvia

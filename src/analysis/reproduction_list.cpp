@@ -40,6 +40,9 @@ void ShownPictures::Describe(Fields& f) {
 
 void ShownTable::Describe(Fields& f) {
   f.Text("title", title, {.meaning = "title of the table", .required = true});
+  f.Choice("rows", rows, {{"contenders", TableRows::kContenders}, {"methods", TableRows::kMethods}},
+           {.meaning = "what its rows are: methods with each of their variants, or methods over "
+                       "all of their variants"});
   f.Texts("scenes", scenes, {.meaning = "patterns of the scenes that it is over; all if empty"});
   f.Texts("metrics", metrics, {.meaning = "keys of its columns", .required = true});
 }

@@ -33,9 +33,16 @@ struct ShownPictures {
   void Describe(Fields& fields);
 };
 
-// Means over runs, a row for each contender.
+// What the rows of a table are about.
+enum class TableRows {
+  kContenders,  // "method/variant"
+  kMethods,     // each over all of its variants
+};
+
+// Means over runs.
 struct ShownTable {
   std::string title;
+  TableRows rows = TableRows::kContenders;
   std::vector<std::string> scenes;  // patterns; empty: all
   std::vector<std::string> metrics;
 

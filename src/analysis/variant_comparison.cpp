@@ -166,13 +166,11 @@ std::vector<std::string> NamesOf(const std::vector<Contender>& contenders) {
   return names;
 }
 
-std::string FullName(const RunRecord& run) { return run.method + "/" + run.variant; }
-
 // By full names, so that two folders agree on them.
-std::vector<Contender> ContendersByFullName(const ReportedExperiment& experiment) {
+std::vector<Contender> ContendersByContenderOf(const ReportedExperiment& experiment) {
   std::vector<Contender> contenders;
   for (const RunRecord* run : experiment.finished()) {
-    const std::string name = FullName(*run);
+    const std::string name = ContenderOf(*run);
     const auto found = std::find_if(contenders.begin(), contenders.end(),
                                     [&](const Contender& c) { return c.name == name; });
     if (found == contenders.end()) {
@@ -264,7 +262,7 @@ std::vector<std::optional<std::size_t>> ShownBest(const std::vector<Contender>& 
 }  // namespace
 
 std::vector<Contender> ContendersOf(const ReportedExperiment& experiment) {
-  std::vector<Contender> contenders = ContendersByFullName(experiment);
+  std::vector<Contender> contenders = ContendersByContenderOf(experiment);
   std::set<std::string> methods, variants, unswept;
   for (const Contender& contender : contenders) {
     methods.insert(contender.runs.front()->method);
@@ -374,8 +372,8 @@ std::vector<VariantComparison> CompareExperiments(const ReportedExperiment& refe
                                                   const std::vector<std::string>& metrics) {
   PairedRuns together{reference.folder.string(), other.folder.string() + ": all", {}, 0};
   std::vector<PairedRuns> all;
-  const std::vector<Contender> references = ContendersByFullName(reference);
-  for (const Contender& contender : ContendersByFullName(other)) {
+  const std::vector<Contender> references = ContendersByContenderOf(reference);
+  for (const Contender& contender : ContendersByContenderOf(other)) {
     const auto found =
         std::find_if(references.begin(), references.end(),
                      [&](const Contender& candidate) { return candidate.name == contender.name; });

@@ -164,14 +164,26 @@ TEST(FigureTable, HasMeansOfEachContenderInItsScenes) {
                                         {"ours", "v", "a", 2, 0.020},
                                         {"ours", "v", "b", 1, 0.900},
                                         {"other", "v", "a", 1, 0.040}});
-  const ShownTable table{"t", {"a"}, {"joint_error_mean_m", "frame_ms_median"}};
-  const std::vector<ContenderRow> rows = Tabulate(table, {made});
+  const ShownTable table{
+      "t", TableRows::kContenders, {"a"}, {"joint_error_mean_m", "frame_ms_median"}};
+  const std::vector<TableRow> rows = Tabulate(table, {made});
   ASSERT_EQ(rows.size(), 2u);
-  EXPECT_EQ(rows[0].contender, "ours/v");
+  EXPECT_EQ(rows[0].name, "ours/v");
   EXPECT_EQ(rows[0].runs, 2);
   EXPECT_DOUBLE_EQ(rows[0].means[0], 0.015);
   EXPECT_TRUE(std::isnan(rows[0].means[1]));
-  EXPECT_EQ(rows[1].contender, "other/v");
+  EXPECT_EQ(rows[1].name, "other/v");
+}
+
+TEST(FigureTable, HasOneRowForAMethodOverItsVariants) {
+  const ReportedExperiment made = Made({{"ours", "man", "a", 1, 0.010},
+                                        {"ours", "woman", "a", 1, 0.030},
+                                        {"other", "man", "a", 1, 0.040}});
+  const ShownTable table{"t", TableRows::kMethods, {}, {"joint_error_mean_m"}};
+  const std::vector<TableRow> rows = Tabulate(table, {made});
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].name, "ours");
+  EXPECT_DOUBLE_EQ(rows[0].means[0], 0.020);
 }
 
 std::string RefusalOf(const Json& test) {

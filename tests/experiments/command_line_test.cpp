@@ -85,6 +85,23 @@ TEST_F(CommandLine, GridIsScenesTimesVariantsTimesSeeds) {
   EXPECT_EQ(plan.runs[0].method.settings.at("axis_weight"), 1.0);
 }
 
+// A setting of one method is no setting of the other.
+TEST_F(CommandLine, VariantsAreTrackedByTheMethodsThatTheyAreAbout) {
+  Write(folder_ / "capsules.json", {{"method", "capsule_icp"}});
+  Json experiment = Experiment();
+  experiment["methods"] = {"method.json", "capsules.json"};
+  experiment["variants"] = {
+      {{"name", "free"}, {"methods", {"meth*"}}, {"method", {{"settings", {{"axis_weight", 0}}}}}},
+      {{"name", "plain"}, {"methods", {"capsules"}}},
+      {{"name", "all"}}};
+  Write(folder_ / "grid.json", experiment);
+  std::vector<std::string> runs;
+  for (const RunPlan& run : PlanExperiment(folder_ / "grid.json").runs)
+    runs.push_back(run.method_name + "/" + run.variant);
+  EXPECT_EQ(runs, (std::vector<std::string>{"method/free", "method/all", "capsules/plain",
+                                            "capsules/all"}));
+}
+
 TEST_F(CommandLine, ConfigNamesAreTakenBelowConfigs) {
   EXPECT_EQ(ConfigName("/a/configs/realtime_scape/fig11.json"), "realtime_scape/fig11");
   EXPECT_EQ(ConfigName("/a/b/mine.json"), "mine");
@@ -141,6 +158,11 @@ TEST_F(CommandLine, BadConfigsAreNamedAndNothingIsWritten) {
   e = Experiment();
   e["variants"] = {{{"name", "a"}}, {{"name", "a"}}};
   refused(e, {"\"a\" stands twice"});
+  e = Experiment();
+  e["variants"] = {{{"name", "a"}, {"methods", {"dynamic*"}}}};
+  refused(e, {"\"a\" is about no method of the experiment: dynamic*"});
+  e["methods"] = {"method.json", "dynamic.json"};
+  refused(e, {"no variant is about method"});
   e = Experiment();
   e["variants"] = {{{"name", "../a"}}};
   refused(e, {"expected letters, digits"});

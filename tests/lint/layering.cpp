@@ -26,8 +26,6 @@ constexpr std::array kSystemHeaders = {"dlfcn.h",        "fcntl.h",      "fnmatc
                                        "sys/types.h",    "sys/wait.h",   "unistd.h"};
 
 constexpr std::string_view kMethodsFolder = "src/methods";
-// Its study of kind model_drawing draws the trees and axes of the two papers' methods.
-constexpr std::string_view kModelDrawingFolder = "experiments/studies";
 
 struct Module {
   std::string name, folder, build_text;
@@ -169,8 +167,7 @@ class Checker {
         continue;
       }
       const std::string& folder = found->second.folder;
-      if (FolderOf(folder) == kMethodsFolder && module.folder != kMethodsFolder &&
-          module.folder != kModelDrawingFolder) {
+      if (FolderOf(folder) == kMethodsFolder && module.folder != kMethodsFolder) {
         Report("{}: DEPENDS names the method {}; only {} may", module.name, name, kMethodsFolder);
       }
     }

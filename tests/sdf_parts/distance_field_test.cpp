@@ -24,21 +24,22 @@ Vector3f Somewhere(RandomStream& random, double range) {
       .cast<float>();
 }
 
+// Along each axis the gradient of the interpolation is that of |x| − R half a cell off at most,
+// which along x makes h / √3|x| for cells of side h.
 TEST(DistanceField, OfASphereIsTheAnalyticOne) {
   const DistanceField field(SmallSphere(), kCell_m, 0.1);
   RandomStream random(1, "points");
   for (int i = 0; i < 2000; ++i) {
     const Vector3f x = Somewhere(random, 0.24);
     ASSERT_TRUE(field.Covers(x));
-    const double expected = double{x.norm()} - kRadius_m;
+    const double radius_m = double{x.norm()};
+    if (radius_m < 2.0 * kCell_m) continue;  // the distance has a tip in the middle
     const DistanceField::Sample sample = field.At(x);
-    if (x.norm() < 2.0f * static_cast<float>(kCell_m)) continue;  // the distance has a tip there
-    EXPECT_NEAR(sample.distance_m, expected, 0.1 * kCell_m) << x.transpose();
-    if (std::abs(expected) < 2.0 * kCell_m) {
-      // Trilinear interpolation shortens it where distances are convex.
-      EXPECT_GT(sample.gradient.normalized().dot(x.normalized()), 0.99f);
-      EXPECT_NEAR(sample.gradient.norm(), 1.0f, 0.1f);
-    }
+    EXPECT_NEAR(sample.distance_m, radius_m - kRadius_m, 0.1 * kCell_m) << x.transpose();
+    if (std::abs(radius_m - kRadius_m) > 2.0 * kCell_m) continue;
+    const double longest = kCell_m / (std::sqrt(3.0) * (radius_m - kCell_m));
+    EXPECT_NEAR(double{sample.gradient.dot(x.normalized())}, 1.0, longest) << x.transpose();
+    EXPECT_GT(sample.gradient.normalized().dot(x.normalized()), 0.99f);
   }
   EXPECT_FALSE(field.Covers({0.26f, 0.0f, 0.0f}));
 }

@@ -41,7 +41,7 @@ class LearntFinder final : public JointFinder {
     if (!std::filesystem::exists(folder / joints::kJointModelFile)) {
       throw ConfigError(
           fmt::format("detector.model: {} holds no joint model; make one: vitruvia learn joints "
-                      "configs/learning/joints.json -o {}",
+                      "configs/joints/mannequin.json -o {}",
                       folder.string(), folder.string()));
     }
     return joints::ReadJointModel(folder);
