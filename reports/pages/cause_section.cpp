@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/cause.h"
 #include "reports/drawing/html_text.h"
 #include "reports/pages/viewer_link.h"
 
