@@ -18,10 +18,10 @@ struct SeenPage {
 };
 
 struct Visit {
-  int width = 1280;                  // of the window; below 500 of a frame in it, as a phone's is
-  std::string fragment{};            // of the address, after #
-  bool dark = false;                 // whether the system asks for dark pages
-  std::filesystem::path screenshot;  // where a picture of the window goes; "": nowhere
+  int width = 1280;                    // of the window; below 500 of a frame in it, as a phone's is
+  std::string fragment{};              // of the address, after #
+  bool dark = false;                   // whether the system asks for dark pages
+  std::filesystem::path screenshot{};  // where a picture of the window goes; "": nowhere
 };
 
 // A copy of the page with a script of its own added, as the browser shows it. The script has 20 s

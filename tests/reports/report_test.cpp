@@ -160,7 +160,8 @@ TEST(Report, SaysWhatHoldsTheErrors) {
   ASSERT_NE(waving, runs.end());
   for (int i = 0; i < kCauseCount; ++i) {
     const double share = waving->diagnosis.shares[i];
-    if (share > 0.0) EXPECT_THAT(page, HasSubstr(fmt::format(">{:.1f} %</td>", 1e2 * share)));
+    if (share == 0.0) continue;
+    EXPECT_THAT(page, HasSubstr(fmt::format(">{:.1f} %</td>", 1e2 * share)));
   }
 }
 
