@@ -7,10 +7,10 @@ SHELL := /bin/bash
 # Debian 12. To build and test; nothing else is needed but make itself.
 PACKAGES := g++ cmake ninja-build pkgconf git ccache \
   nlohmann-json3-dev libfmt-dev libcli11-dev libeigen3-dev libboost-dev libopenmesh-dev libflann-dev \
-  liblz4-dev zlib1g-dev libcairo2-dev fonts-liberation libosmesa6-dev libceres-dev libopencv-dev \
+  liblz4-dev zlib1g-dev libcairo2-dev libpng-dev fonts-liberation libosmesa6-dev libceres-dev libopencv-dev \
   libvtk9-dev libtinygltf-dev libjs-three libgtest-dev libgmock-dev
-# Some tests open pages in it; without it they are skipped and say so.
-BROWSER_PACKAGES := chromium
+# Some tests open pages and exports in them; without them they are skipped and say so.
+BROWSER_PACKAGES := chromium f3d xvfb xauth
 NPM_PACKAGES := nodejs npm ca-certificates
 # Pinned: other versions format and warn differently.
 FORMAT_PACKAGES := clang-format-14

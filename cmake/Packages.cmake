@@ -8,12 +8,13 @@ find_package(Boost 1.74 REQUIRED)  # Boost.Math, headers only
 find_package(OpenCV 4.6 REQUIRED COMPONENTS core imgcodecs imgproc)
 find_package(CLI11 2.1 REQUIRED)
 find_package(VTK 9.1 REQUIRED COMPONENTS
-  CommonColor CommonCore CommonDataModel FiltersCore FiltersGeneral FiltersSources IOCore IOGeometry IOImage
-  IOXML RenderingAnnotation RenderingCore RenderingFreeType RenderingOpenGL2)
+  CommonCore CommonDataModel CommonExecutionModel FiltersCore IOXML
+  IOGeometry IOImage)  # for tests alone: they read glTF and PNG
 find_package(ZLIB REQUIRED)
 find_package(TinyGLTF REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
+pkg_check_modules(PNG REQUIRED IMPORTED_TARGET libpng)
 pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo cairo-pdf)
 pkg_check_modules(FLANN REQUIRED IMPORTED_TARGET flann)
 pkg_check_modules(OPENMESH REQUIRED openmesh)

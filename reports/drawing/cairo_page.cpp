@@ -116,15 +116,38 @@ Surface ToSurface(const ColorImage& picture) {
   return surface;
 }
 
+// Of an opaque surface.
+ColorImage FromSurface(const Surface& surface) {
+  cairo_surface_flush(surface.get());
+  const unsigned char* data = cairo_image_surface_get_data(surface.get());
+  const int stride = cairo_image_surface_get_stride(surface.get());
+  ColorImage image(cairo_image_surface_get_width(surface.get()),
+                   cairo_image_surface_get_height(surface.get()));
+  for (int v = 0; v < image.height(); ++v) {
+    for (int u = 0; u < image.width(); ++u) {
+      std::uint32_t word = 0;
+      std::memcpy(&word, data + static_cast<std::ptrdiff_t>(v) * stride + 4 * u, sizeof word);
+      const auto byte = [word](int shift) {
+        return static_cast<std::uint8_t>(word >> shift & 0xff);
+      };
+      image(u, v) = {byte(16), byte(8), byte(0), 255};
+    }
+  }
+  return image;
+}
+
 void Draw(cairo_t* cairo, const PictureShape& shape) {
-  const Surface picture = ToSurface(*shape.picture);
+  const Surface picture = ToSurface(shape.picture->image);
   cairo_save(cairo);
   cairo_translate(cairo, shape.top_left.x, shape.top_left.y);
-  cairo_scale(cairo, shape.width / shape.picture->width(), shape.height / shape.picture->height());
+  const ColorImage& image = shape.picture->image;
+  cairo_scale(cairo, shape.width / image.width(), shape.height / image.height());
   cairo_set_source_surface(cairo, picture.get(), 0.0, 0.0);
   cairo_paint(cairo);
   cairo_restore(cairo);
 }
+
+void Draw(cairo_t* /*cairo*/, const HintShape& /*hint*/) {}
 
 void DrawAll(const Surface& surface, const std::vector<PageShape>& shapes, double scale) {
   const Context context = DrawingOn(surface);
@@ -160,9 +183,7 @@ std::string ToPng(const std::vector<PageShape>& shapes, double width, double hei
     cairo_paint(context.get());
   }
   DrawAll(surface, shapes, scale);
-  std::string file;
-  Check(cairo_surface_write_to_png_stream(surface.get(), Append, &file));
-  return file;
+  return EncodePng(FromSurface(surface));
 }
 
 double MeasuredWidth(const std::string& text, const TextStyle& style) {

@@ -58,8 +58,8 @@ std::vector<std::string> WrappedText(const std::string& text, double width,
 
 void Canvas::Line(Point a, Point b, const Stroke& stroke) { Polyline({a, b}, stroke); }
 
-void Canvas::Polyline(const std::vector<Point>& points, const Stroke& stroke) {
-  if (points.size() > 1) shapes_.push_back(PolylineShape{points, stroke});
+void Canvas::Polyline(const std::vector<Point>& points, const Stroke& stroke, CurveHint hint) {
+  if (points.size() > 1) shapes_.push_back(PolylineShape{points, stroke, std::move(hint)});
 }
 
 void Canvas::Rectangle(Point top_left, double width, double height, Color fill, double opacity) {
@@ -90,7 +90,11 @@ void Canvas::Text(Point at, const std::string& text, const TextStyle& style) {
   if (!text.empty()) shapes_.push_back(TextShape{at, text, style});
 }
 
-void Canvas::Picture(Point top_left, double width, double height, const ColorImage& picture) {
+void Canvas::Hint(Point center, double radius, const std::string& text) {
+  shapes_.push_back(HintShape{center, radius, text});
+}
+
+void Canvas::Image(Point top_left, double width, double height, const Picture& picture) {
   shapes_.push_back(PictureShape{top_left, width, height, &picture});
 }
 

@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "reports/drawing/offscreen.h"
+#include "reports/drawing/color_image.h"
 
 namespace vitruvia {
 
@@ -42,9 +42,16 @@ double BaselineShift(const TextStyle& style);
 // The text in lines that are not wider than `width` where it has spaces to break at.
 std::vector<std::string> WrappedText(const std::string& text, double width, const TextStyle& style);
 
+// What a page says of a curve where the pointer is near one of its points.
+struct CurveHint {
+  std::string name;                               // "": nothing
+  std::vector<std::pair<double, double>> values;  // of each point
+};
+
 struct PolylineShape {
   std::vector<Point> points;
   Stroke stroke;
+  CurveHint hint{};
 };
 struct PolygonShape {
   std::vector<Point> points;
@@ -64,23 +71,31 @@ struct TextShape {
 struct PictureShape {
   Point top_left;
   double width = 0.0, height = 0.0;
-  const ColorImage* picture = nullptr;
+  const Picture* picture = nullptr;
 };
-using PageShape = std::variant<PolylineShape, PolygonShape, DiscShape, TextShape, PictureShape>;
+// A place that answers to pointer and keyboard; nothing is seen of it, and only in an SVG.
+struct HintShape {
+  Point center;
+  double radius = 0.0;
+  std::string text;
+};
+using PageShape =
+    std::variant<PolylineShape, PolygonShape, DiscShape, TextShape, PictureShape, HintShape>;
 
 // Collects what is drawn, in order: later shapes cover earlier ones.
 class Canvas {
  public:
   void Line(Point a, Point b, const Stroke& stroke);
-  void Polyline(const std::vector<Point>& points, const Stroke& stroke);
+  void Polyline(const std::vector<Point>& points, const Stroke& stroke, CurveHint hint = {});
   void Rectangle(Point top_left, double width, double height, Color fill, double opacity = 1.0);
   void Frame(Point top_left, double width, double height, const Stroke& stroke);
   void Polygon(const std::vector<Point>& points, Color fill, double opacity = 1.0);
   void Disc(Point center, double radius, Color fill);
   void Cross(Point center, double radius, const Stroke& stroke);
   void Text(Point at, const std::string& text, const TextStyle& style);
+  void Hint(Point center, double radius, const std::string& text);
   // The picture must outlive the canvas.
-  void Picture(Point top_left, double width, double height, const ColorImage& picture);
+  void Image(Point top_left, double width, double height, const Picture& picture);
 
   const std::vector<PageShape>& shapes() const { return shapes_; }
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "reports/drawing/offscreen.h"
+#include "reports/drawing/color_image.h"
 
 namespace vitruvia {
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/markup.h"
-#include "reports/drawing/offscreen.h"
+#include "reports/drawing/color_image.h"
 
 namespace vitruvia {
 

@@ -388,17 +388,37 @@ void DrawBand(Canvas& canvas, const Series& series, const PanelFrame& frame) {
   }
 }
 
-void DrawLine(Canvas& canvas, const Series& series, const PanelFrame& frame) {
+// "base", or "base: run-1, run-2 and 3 more".
+std::string NameWithRuns(const Series& series, const Figure& figure) {
+  constexpr std::size_t kMostIds = 3;
+  const std::string& of = series.runs_of.empty() ? series.name : series.runs_of;
+  for (const auto& [name, ids] : figure.runs) {
+    if (name != of || ids.empty()) continue;
+    const std::size_t shown = std::min(ids.size(), kMostIds);
+    return fmt::format(
+        "{}: {}{}", name,
+        fmt::join(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+        ids.size() > shown ? fmt::format(" and {} more", ids.size() - shown) : "");
+  }
+  return series.name;
+}
+
+void DrawLine(Canvas& canvas, const Series& series, const PanelFrame& frame, const Figure& figure) {
   const double u = frame.texts.scale;
   for (const auto& [first, last] : Pieces(series)) {
     std::vector<Point> points;
-    for (std::size_t i = first; i < last; ++i) points.push_back(frame.At(series.x[i], series.y[i]));
+    CurveHint hint{NameWithRuns(series, figure), {}};
+    for (std::size_t i = first; i < last; ++i) {
+      points.push_back(frame.At(series.x[i], series.y[i]));
+      hint.values.emplace_back(series.x[i], series.y[i]);
+    }
     if (points.size() == 1) canvas.Disc(points.front(), 1.5 * u, series.color);
-    canvas.Polyline(points, {series.color, series.width * u, series.dash * u});
+    canvas.Polyline(points, {series.color, series.width * u, series.dash * u}, std::move(hint));
   }
 }
 
-void DrawPoints(Canvas& canvas, const Series& series, const PanelFrame& frame) {
+void DrawPoints(Canvas& canvas, const Series& series, const Panel& panel, const PanelFrame& frame,
+                const Figure& figure) {
   const double u = frame.texts.scale;
   for (std::size_t i = 0; i < series.x.size(); ++i) {
     if (!std::isfinite(series.x[i]) || !std::isfinite(series.y[i])) continue;
@@ -409,6 +429,9 @@ void DrawPoints(Canvas& canvas, const Series& series, const PanelFrame& frame) {
       canvas.Line({end, at.y - 5.0 * u}, {end, at.y + 5.0 * u}, {series.color, 1.6 * u});
     }
     DrawMarkedPoint(canvas, at, series, u);
+    canvas.Hint(at, kPointRadius * u,
+                fmt::format("{} · {}: {:.4g} · {}: {:.4g}", NameWithRuns(series, figure),
+                            panel.x_label, series.x[i], panel.y_label, series.y[i]));
     canvas.Text({at.x + kPointRadius * u, at.y - (kPointRadius + 3.0) * u}, series.label,
                 frame.texts.TickText());
   }
@@ -422,6 +445,9 @@ void DrawBars(Canvas& canvas, const Panel& panel, const PanelFrame& frame) {
       if (!std::isfinite(series.x[i])) continue;
       const double left = frame.X(start[i]), right = frame.X(start[i] + series.x[i]);
       canvas.Rectangle({left, frame.Y(series.y[i]) - half}, right - left, 2.0 * half, series.color);
+      canvas.Hint({0.5 * (left + right), frame.Y(series.y[i])},
+                  std::min(half, 0.5 * (right - left)),
+                  fmt::format("{} · {}: {:.4g}", series.name, panel.x_label, series.x[i]));
       start[i] += series.x[i];
     }
   }
@@ -466,7 +492,7 @@ void DrawFailures(Canvas& canvas, const Panel& panel, const PanelFrame& frame) {
   }
 }
 
-void DrawPanel(Canvas& canvas, const Panel& panel, const PanelFrame& frame) {
+void DrawPanel(Canvas& canvas, const Panel& panel, const PanelFrame& frame, const Figure& figure) {
   if (panel.cells) DrawCells(canvas, *panel.cells, frame);
   DrawAxes(canvas, panel, frame);
   DrawHead(canvas, panel, frame);
@@ -481,8 +507,8 @@ void DrawPanel(Canvas& canvas, const Panel& panel, const PanelFrame& frame) {
   if (HasBars(panel)) return DrawBars(canvas, panel, frame);
   for (const Series& series : panel.series) DrawBand(canvas, series, frame);
   for (const Series& series : panel.series) {
-    if (series.mark == Mark::kLine) DrawLine(canvas, series, frame);
-    if (series.mark != Mark::kLine) DrawPoints(canvas, series, frame);
+    if (series.mark == Mark::kLine) DrawLine(canvas, series, frame, figure);
+    if (series.mark != Mark::kLine) DrawPoints(canvas, series, panel, frame, figure);
   }
   DrawFailures(canvas, panel, frame);
 }
@@ -497,7 +523,8 @@ void DrawFigure(Canvas& canvas, const Figure& figure, const FigureStyle& style) 
   const Layout layout(figure, style);
   layout.legend.Draw(canvas);
   for (std::size_t i = 0; i < figure.panels.size(); ++i)
-    DrawPanel(canvas, figure.panels[i], PanelFrame(figure.panels[i], layout.TopLeft(i), layout));
+    DrawPanel(canvas, figure.panels[i], PanelFrame(figure.panels[i], layout.TopLeft(i), layout),
+              figure);
 }
 
 }  // namespace vitruvia

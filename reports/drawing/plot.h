@@ -19,7 +19,8 @@ enum class Mark {
 };
 
 struct Series {
-  std::string name;  // in the legend; "": not there
+  std::string name;       // in the legend; "": not there
+  std::string runs_of{};  // the name in Figure::runs of what it shows; "": its own
   Color color{};
   double dash = 0.0;   // as Stroke::dash
   double width = 1.8;  // of lines, in units of the usual style
@@ -64,7 +65,8 @@ struct Figure {
   std::string title, caption;  // plain text
   int columns = 1;             // of panels, at most; rows follow
   std::vector<Panel> panels;
-  // What the legend's names stand for: name → ids of runs. Written beside figures of papers.
+  // What the legend's names stand for: name → ids of runs. Written beside figures of papers, and
+  // said where a pointer is on a point or line.
   std::vector<std::pair<std::string, std::vector<std::string>>> runs{};
 };
 

@@ -14,12 +14,22 @@ std::string Coordinates(const std::vector<Point>& points) {
   return text;
 }
 
+// Names and values of a curve, for the page's script.
+std::string Attributes(const CurveHint& hint) {
+  if (hint.name.empty()) return "";
+  std::string values;
+  for (const auto& [x, y] : hint.values)
+    values += fmt::format("{}{:.5g} {:.4g}", values.empty() ? "" : ",", x, y);
+  return fmt::format(" data-name=\"{}\" data-values=\"{}\"", Escaped(hint.name), values);
+}
+
 std::string Element(const PolylineShape& line) {
   const std::string dash =
       line.stroke.dash > 0.0 ? fmt::format(" stroke-dasharray=\"{:g}\"", line.stroke.dash) : "";
   return fmt::format(
-      "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:g}\"{}/>\n",
-      Coordinates(line.points), CssColor(line.stroke.color), line.stroke.width, dash);
+      "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:g}\"{}{}/>\n",
+      Coordinates(line.points), CssColor(line.stroke.color), line.stroke.width, dash,
+      Attributes(line.hint));
 }
 
 std::string Element(const PolygonShape& polygon) {
@@ -46,10 +56,17 @@ std::string Element(const TextShape& t) {
       t.style.size, t.style.bold ? 700 : 400, anchor, CssColor(t.style.color), Escaped(t.text));
 }
 
+std::string Element(const HintShape& h) {
+  return fmt::format(
+      "<circle cx=\"{:.7g}\" cy=\"{:.7g}\" r=\"{:g}\" fill=\"#fff\" fill-opacity=\"0\" "
+      "tabindex=\"0\" role=\"img\" aria-label=\"{}\"/>\n",
+      h.center.x, h.center.y, h.radius, Escaped(h.text));
+}
+
 std::string Element(const PictureShape& p) {
   return fmt::format(
       "<image x=\"{:.7g}\" y=\"{:.7g}\" width=\"{:.7g}\" height=\"{:.7g}\" xlink:href=\"{}\"/>\n",
-      p.top_left.x, p.top_left.y, p.width, p.height, DataUri(EncodePng(*p.picture)));
+      p.top_left.x, p.top_left.y, p.width, p.height, DataUri(p.picture->png));
 }
 
 }  // namespace

@@ -2,13 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPNGReader.h>
-
-#include "core/error.h"
-
 namespace vitruvia {
 namespace {
 
@@ -24,26 +17,6 @@ ColorPixel MeanOfBlock(const ColorImage& image, int left, int top, int size) {
 }
 
 }  // namespace
-
-ColorImage ReadPng(const std::filesystem::path& file) {
-  vtkNew<vtkPNGReader> reader;
-  if (reader->CanReadFile(file.c_str()) == 0)
-    throw DataError(fmt::format("{}: not a PNG", file.string()));
-  reader->SetFileName(file.c_str());
-  reader->Update();
-  vtkImageData* data = reader->GetOutput();
-  const int* size = data->GetDimensions();
-  const int channels = data->GetNumberOfScalarComponents();
-  ColorImage image(size[0], size[1]);
-  for (int v = 0; v < size[1]; ++v) {
-    for (int u = 0; u < size[0]; ++u) {
-      const auto* pixel =
-          static_cast<const std::uint8_t*>(data->GetScalarPointer(u, size[1] - 1 - v, 0));
-      image(u, v) = {pixel[0], pixel[channels > 2 ? 1 : 0], pixel[channels > 2 ? 2 : 0], 255};
-    }
-  }
-  return image;
-}
 
 ColorImage Thumbnail(const ColorImage& image, int width, double aspect) {
   const int block = std::max(1, (image.width() + width - 1) / width);

@@ -1,14 +1,9 @@
-// Small versions of PNG files.
+// Small versions of pictures.
 #pragma once
 
-#include <filesystem>
-
-#include "reports/drawing/offscreen.h"
+#include "reports/drawing/color_image.h"
 
 namespace vitruvia {
-
-// DataError if the file is not a PNG.
-ColorImage ReadPng(const std::filesystem::path& file);
 
 // The top of a picture at no more than `width` pixels, each the mean of those that fall into it,
 // cut off below at `aspect` times its own width.

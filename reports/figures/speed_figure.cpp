@@ -94,6 +94,7 @@ Series FrontLine(std::vector<SpeedPoint> points) {
 Series Drawn(const SpeedPoint& point, std::size_t index, bool numbered) {
   Series series;
   series.name = numbered ? fmt::format("{} {}", index + 1, point.name) : point.name;
+  series.runs_of = point.name;
   series.color = VariantColor(index);
   series.mark = point.on_front ? Mark::kPoints : Mark::kRings;
   series.x = {point.median_ms};

@@ -9,6 +9,7 @@
 #include "analysis/tables.h"
 #include "analysis/variant_comparison.h"
 #include "reports/drawing/html_text.h"
+#include "reports/pages/cause_section.h"
 #include "reports/pages/comparison_section.h"
 #include "reports/pages/picture_section.h"
 #include "reports/pages/viewer_link.h"
@@ -68,7 +69,7 @@ std::string Header(const ReportedExperiment& experiment) {
       Escaped(experiment.record.name), Escaped(experiment.record.title),
       Escaped(experiment.record.description), status, CaveatsText(runs),
       ContendersOf(experiment).size() < 2 ? "" : "<a href=\"#summary\">Variants</a>",
-      tracked ? "<a href=\"#plots\">Plots</a>" : "",
+      tracked ? "<a href=\"#plots\">Plots</a><a href=\"#causes\">Causes</a>" : "",
       tracked ? "<a href=\"#steps\">Time per step</a>" : "");
 }
 
@@ -175,11 +176,19 @@ std::string RunIdCell(const std::string& run_id, const ReportedExperiment& exper
       RunWithViewer(run_id, ViewerLink(experiment.folder, run_id, experiment.folder)));
 }
 
+bool HasViewers(const ReportedExperiment& experiment) {
+  return std::ranges::any_of(experiment.runs, [&](const ReportedRun& run) {
+    return !ViewerLink(experiment.folder, run.run_id, experiment.folder).empty();
+  });
+}
+
 std::string RunsSection(const ReportedExperiment& experiment) {
   const SummaryTable table = MakeSummaryTable(experiment);
   std::string html =
       "<section id=\"runs\"><h2>All runs</h2><p class=\"soft\">A click on a column’s name sorts by "
-      "it.</p><div class=\"scroll\"><table class=\"sortable\"><thead><tr>";
+      "it.</p>\n" +
+      ViewerChoice(HasViewers(experiment), experiment.record.name) +
+      "<div class=\"scroll\"><table class=\"sortable\"><thead><tr>";
   for (const Metric& column : table.columns) {
     html += fmt::format("<th><button type=\"button\">{}</button></th>", Escaped(Titled(column)));
   }
@@ -231,12 +240,13 @@ std::string ProvenanceSection(const ReportedExperiment& experiment) {
 }  // namespace
 
 std::string MakePage(const ReportedExperiment& experiment, const std::vector<DrawnFigure>& figures,
+                     const std::vector<RunCauses>& causes,
                      const std::vector<RunPictures>& pictures) {
   return PageOf(experiment.record.title,
                 Header(experiment) + "<main>\n" + VariantSection(experiment) +
                     PaperSection(experiment) + ComparisonSection(experiment) +
-                    PlotSection(experiment, figures) + PictureSection(pictures) +
-                    StepSection(experiment) + RunsSection(experiment) +
+                    PlotSection(experiment, figures) + CauseSection(experiment, causes) +
+                    PictureSection(pictures) + StepSection(experiment) + RunsSection(experiment) +
                     ProvenanceSection(experiment) + "</main>\n");
 }
 

@@ -164,10 +164,12 @@ std::string RunSectionOfAll(const IndexContent& content) {
   const std::vector<Metric> columns = MetricsShownIn(Place::kIndexPage);
   std::vector<std::string> titles = {"experiment", "run", "commit"};
   for (const Metric& column : columns) titles.push_back(Titled(column));
+  const bool any_viewer = std::ranges::any_of(
+      content.experiments, [](const IndexedExperiment& e) { return !e.viewers.empty(); });
   std::string html =
       "<section id=\"runs\"><h2>All runs</h2><p class=\"soft\">A click on a column’s name sorts by "
       "it.</p>" +
-      TableHead("sortable", titles);
+      (any_viewer ? ViewerChoice(true, "") : "") + TableHead("sortable", titles);
   for (const IndexedExperiment& indexed : content.experiments) {
     for (const ReportedRun& run : indexed.experiment.runs) html += RunRow(indexed, run, columns);
   }

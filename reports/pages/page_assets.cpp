@@ -3,12 +3,17 @@
 namespace vitruvia {
 
 const char* const kPageStyle = R"css(
-:root { --ink: #1d2125; --soft: #5a636b; --line: #dde1e4; --band: #f5f6f7; --accent: #005a8f;
-        --good: #00664b; --bad: #a3001d; }
+:root { color-scheme: light dark; --paper: #fff; --ink: #1d2125; --soft: #5a636b; --line: #dde1e4;
+        --band: #f5f6f7; --accent: #005a8f; --good: #00664b; --bad: #a3001d; }
+@media screen and (prefers-color-scheme: dark) {
+  :root { --paper: #15181b; --ink: #e4e7ea; --soft: #a3acb4; --line: #3a4148; --band: #1f2428;
+          --accent: #7cc0ec; --good: #6fd0a8; --bad: #ff8d9d; }
+  figure.plot svg { border-radius: .3rem; }
+}
 * { box-sizing: border-box; }
 html { -webkit-text-size-adjust: 100%; }
 body { margin: 0 auto; padding: 1.5rem 1.25rem 4rem; max-width: 1240px; color: var(--ink);
-       background: #fff; font: 16px/1.5 system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans",
+       background: var(--paper); font: 16px/1.5 system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans",
        "DejaVu Sans", sans-serif; font-variant-numeric: tabular-nums; }
 h1 { font-size: 1.9rem; line-height: 1.2; margin: .2rem 0 .5rem; letter-spacing: -.01em; }
 h2 { font-size: 1.35rem; margin: 2.8rem 0 .6rem; padding-top: .6rem; border-top: 2px solid var(--ink); }
@@ -60,6 +65,20 @@ figure.plot svg { display: block; width: 100%; min-width: 540px; max-width: 900p
 b.met { color: var(--good); }
 b.missed { color: var(--bad); }
 p.problem { color: var(--bad); }
+#hint { position: absolute; z-index: 1; max-width: 22rem; padding: .25rem .5rem; font-size: .85rem;
+        color: var(--ink); background: var(--band); border: 1px solid var(--line); border-radius: .25rem;
+        pointer-events: none; overflow-wrap: anywhere; }
+#hint[hidden] { display: none; }
+svg circle:focus { outline: 2px solid var(--accent); }
+:focus-visible { outline: 2px solid var(--accent); outline-offset: 1px; }
+.choose { display: flex; flex-wrap: wrap; gap: .4rem 1rem; align-items: center; margin: .4rem 0; }
+.choose button { font: inherit; color: inherit; background: var(--band); border: 1px solid var(--line);
+                 border-radius: .25rem; padding: .2rem .7rem; }
+.events { display: grid; gap: .7rem; padding: 0; list-style: none; margin: .5rem 0;
+          grid-template-columns: repeat(auto-fill, minmax(min(100%, 15rem), 1fr)); }
+.events li { display: grid; grid-template-columns: 5rem minmax(0, 1fr); gap: .6rem; font-size: .85rem; }
+.events img { width: 5rem; height: 5rem; border: 1px solid var(--line); }
+.events b { display: block; }
 .bars { display: flex; flex-wrap: wrap; gap: .6rem 2rem; margin: .4rem 0 .6rem; font-size: .85rem; }
 .bar { width: 300px; max-width: 100%; }
 .bar i { display: block; height: 12px; border: 1px solid var(--line); }
@@ -118,6 +137,7 @@ dd { margin: 0; overflow-wrap: anywhere; }
   .sortable th, .sortable td { padding: 1pt 1.5pt; white-space: normal; overflow-wrap: anywhere; }
   h2, h3, h4 { break-after: avoid; }
   .cells { grid-template-columns: repeat(7, minmax(0, 1fr)); }
+  #hint, .choose { display: none; }
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
 }
 )css";
@@ -141,6 +161,60 @@ for (const table of document.querySelectorAll("table.sortable")) {
       };
       body.append(...[...body.rows].sort(order));
     });
+  });
+}
+
+// What a plot says of the point or curve under the pointer, or of the point that has the focus.
+const hint = document.createElement("div");
+hint.id = "hint";
+hint.hidden = true;
+document.body.append(hint);
+function say(text, x, y) {
+  hint.textContent = text;
+  hint.hidden = false;
+  hint.style.left = Math.min(x + 12, innerWidth - hint.offsetWidth - 8) + scrollX + "px";
+  hint.style.top = y + 14 + scrollY + "px";
+}
+function nearestOn(svg, x, y) {
+  const matrix = svg.getScreenCTM(), reach = 14;
+  let best = {distance: reach};
+  for (const curve of svg.querySelectorAll("[data-values]")) {
+    const values = curve.dataset.values.split(",");
+    [...curve.points].forEach((point, i) => {
+      const at = point.matrixTransform(matrix), distance = Math.hypot(at.x - x, at.y - y);
+      if (distance < best.distance) best = {distance, curve, value: values[i]};
+    });
+  }
+  if (!best.curve) return "";
+  const [of, value] = best.value.split(" ");
+  return `${best.curve.dataset.name} · ${value} at ${of}`;
+}
+for (const svg of document.querySelectorAll("figure.plot svg")) {
+  svg.addEventListener("pointermove", event => {
+    const text = event.target.ariaLabel && event.target !== svg ? event.target.ariaLabel
+                                                               : nearestOn(svg, event.clientX, event.clientY);
+    if (text) say(text, event.clientX, event.clientY); else hint.hidden = true;
+  });
+  svg.addEventListener("pointerleave", () => hint.hidden = true);
+  svg.addEventListener("focusin", event => {
+    const box = event.target.getBoundingClientRect();
+    if (event.target.ariaLabel) say(event.target.ariaLabel, box.right, box.top);
+  });
+  svg.addEventListener("focusout", () => hint.hidden = true);
+}
+addEventListener("keydown", event => { if (event.key === "Escape") hint.hidden = true; });
+
+// Runs that are chosen in a table open in lockstep: the page of the first takes in the others.
+for (const box of document.querySelectorAll(".choose")) {
+  const table = box.parentElement.querySelector("table"), button = box.querySelector("button");
+  const chosen = () => [...table.querySelectorAll("input:checked")].map(input => input.value);
+  table.addEventListener("input", () => button.disabled = chosen().length < 2);
+  button.disabled = true;
+  button.addEventListener("click", () => {
+    const [first, ...others] = chosen();
+    const up = "../".repeat(first.split("/").length - 1), address = new URLSearchParams();
+    for (const other of others) address.append("with", up + other);
+    open(first + "#" + address, "_blank");
   });
 }
 addEventListener("beforeprint", () => document.querySelectorAll("details").forEach(d => d.open = true));

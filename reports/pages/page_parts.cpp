@@ -36,8 +36,10 @@ std::string InlineSvg(const std::string& svg, const std::string& description) {
   constexpr std::string_view kStart = "<svg";
   const std::size_t at = svg.find(kStart);
   if (at == std::string::npos) return "";
-  return fmt::format("<svg role=\"img\" aria-label=\"{}\"{}", Escaped(description),
-                     svg.substr(at + kStart.size()));
+  // What has points to go to is a group of them to a screen reader, not a single picture.
+  const bool has_points = svg.find("tabindex") != std::string::npos;
+  return fmt::format("<svg role=\"{}\" aria-label=\"{}\"{}", has_points ? "group" : "img",
+                     Escaped(description), svg.substr(at + kStart.size()));
 }
 
 std::string FigureHtml(const DrawnFigure& figure) {

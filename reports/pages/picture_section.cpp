@@ -53,7 +53,7 @@ std::string StripHtml(const RunPictures& run, const PictureStrip& strip) {
     cells += fmt::format(
         "<figure><img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}, {} of {}\">"
         "<figcaption>{}</figcaption></figure>\n",
-        DataUri(EncodePng(strip.pictures[i])), kPictureSize, kPictureSize, Escaped(title),
+        DataUri(strip.pictures[i].png), kPictureSize, kPictureSize, Escaped(title),
         Escaped(strip.label), Escaped(run.run_id), Escaped(title));
   }
   const std::string sublabel = strip.sublabel.empty() ? "" : strip.sublabel + " · ";

@@ -5,6 +5,7 @@
 #include "core/files.h"
 #include "reports/figures/run_plots.h"
 #include "reports/pages/html_page.h"
+#include "reports/pictures/cause_pictures.h"
 #include "reports/pictures/pictures.h"
 #include "reports/pictures/side_by_side.h"
 
@@ -14,18 +15,20 @@ namespace {
 
 constexpr const char* kFiguresMark = "README";
 
-std::vector<RunPictures> AllPictures(const ReportedExperiment& experiment) {
-  std::vector<RunPictures> pictures = MakeSideBySide(experiment);
-  for (RunPictures& run : MakePictures(experiment)) pictures.push_back(std::move(run));
-  return pictures;
-}
-
-void WritePictureSheets(const DrawingWriter& writer, const std::vector<RunPictures>& pictures,
-                        const SheetStyle& style, const fs::path& folder) {
-  for (const RunPictures& run : pictures) {
-    if (run.strips.empty()) continue;
+// Draws all pictures and writes each run's sheet. What is returned holds them encoded only.
+std::vector<RunPictures> WritePictureSheets(const ReportedExperiment& experiment,
+                                            const DrawingWriter& writer, const SheetStyle& style,
+                                            const fs::path& folder) {
+  const auto write_sheet = [&](RunPictures& run) {
+    if (run.strips.empty()) return;
     WritePictureSheet(writer, folder / ("pictures-" + run.run_id), run, style);
-  }
+    for (PictureStrip& strip : run.strips) {
+      for (Picture& picture : strip.pictures) picture.image = {};
+    }
+  };
+  std::vector<RunPictures> pictures = MakeSideBySide(experiment, write_sheet);
+  for (RunPictures& run : MakePictures(experiment, write_sheet)) pictures.push_back(std::move(run));
+  return pictures;
 }
 
 // The figure as LaTeX takes it, with its caption.
@@ -65,8 +68,7 @@ fs::path WritePaperFigures(const fs::path& experiment_folder, const PaperFormat&
     WriteWholeFile(folder.path() / (figure.name + ".txt"), CaptionFile(figure));
     WriteWholeFile(folder.path() / (figure.name + ".tex"), LatexFigure(figure));
   }
-  WritePictureSheets(writer, AllPictures(experiment), {format.text_pt, format.width_pt},
-                     folder.path());
+  WritePictureSheets(experiment, writer, {format.text_pt, format.width_pt}, folder.path());
   folder.Commit();
   return experiment_folder / "paper";
 }
@@ -79,15 +81,16 @@ fs::path WriteReport(const fs::path& experiment_folder) {
                  "Drawn by vitruvia; drawn anew with each report.\n");
   const std::vector<DrawnFigure> figures =
       DrawFigures(MakeFigures(experiment), figures_folder.path());
-  const std::vector<RunPictures> pictures = AllPictures(experiment);
-  WritePictureSheets(DrawingWriter(), pictures, {}, figures_folder.path());
+  const std::vector<RunPictures> pictures = WritePictureSheets(
+      experiment, DrawingWriter({.png_scale = kSheetPngScale}), {}, figures_folder.path());
+  const std::vector<RunCauses> causes = FindCauses(experiment);
   figures_folder.Commit();
 
   WriteWholeFile(experiment_folder / "table.csv", ToCsv(experiment));
   WriteWholeFile(experiment_folder / "table.tex", ToLatex(experiment));
   WriteWholeFile(experiment_folder / "table.md", ToMarkdown(experiment));
   const fs::path page = experiment_folder / "report.html";
-  WriteWholeFile(page, MakePage(experiment, figures, pictures));
+  WriteWholeFile(page, MakePage(experiment, figures, causes, pictures));
   return page;
 }
 

@@ -16,8 +16,22 @@ std::string ViewerLink(const fs::path& experiment_folder, const std::string& run
 
 std::string RunWithViewer(const std::string& run_id, const std::string& link) {
   if (link.empty()) return Escaped(run_id);
-  return fmt::format("{0} <a href=\"{1}\" aria-label=\"{0} in three dimensions\">3-D</a>",
-                     Escaped(run_id), Escaped(link));
+  return fmt::format(
+      "{0} <a href=\"{1}\" aria-label=\"{0} in three dimensions\">3-D</a> <input type=\"checkbox\" "
+      "value=\"{1}\" aria-label=\"choose {0}\">",
+      Escaped(run_id), Escaped(link));
+}
+
+std::string ViewerChoice(bool any_viewer, const std::string& experiment_folder) {
+  if (any_viewer) {
+    return "<p class=\"choose\"><button type=\"button\">Open chosen runs in "
+           "lockstep</button></p>\n";
+  }
+  return fmt::format(
+      "<p class=\"soft\"><code>vitruvia view {}</code> writes a page for each run in which it is "
+      "seen "
+      "in three dimensions, and links it here.</p>\n",
+      Escaped(experiment_folder));
 }
 
 }  // namespace vitruvia

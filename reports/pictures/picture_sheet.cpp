@@ -11,7 +11,7 @@ namespace vitruvia {
 namespace {
 
 // Lengths in units of the usual style; a style with other text scales them all.
-constexpr double kUsualText = 12.0, kUsualCell = 210.0;
+constexpr double kUsualText = 12.0;
 constexpr double kCellGap = 6.0, kEdge = 8.0, kTextLine = 18.0;
 constexpr double kBarWidth = 250.0, kBarHeight = 12.0, kLegendGap = 36.0, kLegendHeight = 52.0;
 constexpr double kWidestLabels = 0.3;  // as a share of a sheet of fixed width
@@ -85,7 +85,7 @@ class Sheet {
     const double columns = static_cast<double>(run_.titles.size());
     margin_ = labels + 2.0 * kEdge * u_;
     if (width) margin_ = std::min(margin_, kWidestLabels * *width);
-    cell_ = width ? (*width - margin_) / columns - gap() : kUsualCell * u_;
+    cell_ = width ? (*width - margin_) / columns - gap() : kSheetCell * u_;
     width_ = margin_ + columns * (cell_ + gap());
     // A sheet of one column still has room for its legend.
     if (!width) width_ = std::max(width_, margin_ + WidestBox() + 2.0 * kEdge * u_);
@@ -165,7 +165,7 @@ class Sheet {
     DrawTextLines(canvas, {kEdge * u_, first + static_cast<double>(label.size()) * line}, sublabel,
                   text_, line);
     for (std::size_t i = 0; i < strip.pictures.size(); ++i)
-      canvas.Picture({X(i), top}, cell_, cell_, strip.pictures[i]);
+      canvas.Image({X(i), top}, cell_, cell_, strip.pictures[i]);
   }
 
   void DrawBox(Canvas& canvas, const LegendBox& box) const {

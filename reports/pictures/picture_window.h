@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "geometry/image.h"
-#include "reports/drawing/mesh_view.h"
+#include "reports/pictures/mesh_view.h"
 
 namespace vitruvia {
 

@@ -4,11 +4,14 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <numbers>
 
 #include <fmt/format.h>
 
+#include "core/build_info.h"
 #include "core/progress.h"
+#include "core/worker_team.h"
 #include "math/rigid.h"
 #include "math/rotation.h"
 #include "math/statistics.h"
@@ -16,7 +19,7 @@
 #include "records/surface_strips.h"
 #include "reports/drawing/axis.h"
 #include "reports/drawing/color_maps.h"
-#include "reports/drawing/mesh_view.h"
+#include "reports/pictures/mesh_view.h"
 #include "reports/pictures/picture_source.h"
 #include "reports/pictures/picture_window.h"
 #include "reports/pictures/surface_pictures.h"
@@ -127,7 +130,7 @@ class StripPainter {
   }
 
  private:
-  void PaintWithTruth(const PictureFrame& frame, std::vector<ColorImage>& pictures) {
+  void PaintWithTruth(const PictureFrame& frame, std::vector<Picture>& pictures) {
     const auto truth = source_.sequence().ReadTrueVertices(frame.number);
     const auto estimate = source_.estimate().ReadVertices(frame.number);
     const Vector3f middle = Middle(truth);
@@ -143,27 +146,27 @@ class StripPainter {
     const ShadedMesh shown_estimate{&estimate_side, &estimate_triangles, {kEstimateColor}};
 
     PaintDepth(frame, front, estimate, pictures);
-    pictures.push_back(OnWhite(view_.Draw(camera_, side, {shown_estimate})));
-    pictures.push_back(OnWhite(view_.Draw(camera_, side, {shown_truth})));
-    pictures.push_back(OnWhite(view_.Draw(camera_, side, {shown_truth, shown_estimate})));
-    pictures.push_back(
+    pictures.emplace_back(OnWhite(view_.Draw(camera_, side, {shown_estimate})));
+    pictures.emplace_back(OnWhite(view_.Draw(camera_, side, {shown_truth})));
+    pictures.emplace_back(OnWhite(view_.Draw(camera_, side, {shown_truth, shown_estimate})));
+    pictures.emplace_back(
         OnWhite(view_.Draw(camera_, front, {{&estimate, &estimate_triangles, errors}})));
-    pictures.push_back(
+    pictures.emplace_back(
         OnWhite(view_.Draw(camera_, side, {{&estimate_side, &estimate_triangles, errors}})));
   }
 
   // What the sensor saw, and the reconstruction over it.
   void PaintDepth(const PictureFrame& frame, const PictureWindow& front,
-                  const std::vector<Vector3f>& estimate, std::vector<ColorImage>& pictures) {
+                  const std::vector<Vector3f>& estimate, std::vector<Picture>& pictures) {
     const auto& triangles = source_.estimate().rest_mesh().triangles;
     const ColorImage depth = DepthPicture(source_.sequence().ReadDepth(frame.number), front,
                                           kPictureSize, run_.nearest_m, run_.farthest_m);
     const ColorImage seen = view_.Draw(camera_, front, {{&estimate, &triangles, {kEstimateColor}}});
-    pictures.push_back(depth);
-    pictures.push_back(Over(seen, depth, kOverlayOpacity));
+    pictures.emplace_back(depth);
+    pictures.emplace_back(Over(seen, depth, kOverlayOpacity));
   }
 
-  void PaintAlone(const PictureFrame& frame, std::vector<ColorImage>& pictures) {
+  void PaintAlone(const PictureFrame& frame, std::vector<Picture>& pictures) {
     const auto estimate = source_.estimate().ReadVertices(frame.number);
     const Vector3f middle = Middle(estimate);
     const auto from_side = Turned(estimate, middle);
@@ -172,8 +175,8 @@ class StripPainter {
     };
     PaintDepth(frame, window(estimate, framing_.front_m), estimate, pictures);
     const auto& triangles = source_.estimate().rest_mesh().triangles;
-    pictures.push_back(OnWhite(view_.Draw(camera_, window(from_side, framing_.side_m),
-                                          {{&from_side, &triangles, {kEstimateColor}}})));
+    pictures.emplace_back(OnWhite(view_.Draw(camera_, window(from_side, framing_.side_m),
+                                             {{&from_side, &triangles, {kEstimateColor}}})));
   }
 
   void FindFraming() {
@@ -197,6 +200,34 @@ class StripPainter {
   Framing framing_;
 };
 
+// Null where there is nothing to draw, or surfaces instead of frames.
+std::unique_ptr<PictureSource> OpenSource(const ReportedExperiment& experiment,
+                                          const RunRecord& run, RunPictures& pictures) {
+  const std::filesystem::path folder = experiment.folder / run.run_id;
+  pictures.run_id = run.run_id;
+  pictures.keys = {{kEstimateColor, "reconstruction"},
+                   {kTruthColor, "truth; where both are drawn, the nearer shows"}};
+  // Drawings of a model have neither reconstruction nor truth.
+  if (HasBoneTree(folder)) pictures.keys.clear();
+  if (HasSurfaceStrips(folder)) return nullptr;
+  return OpenPictureSource(experiment, run, pictures.problem);
+}
+
+// `source`: null of a run that left surfaces.
+void DrawRun(const std::filesystem::path& run_folder, const PictureSource* source,
+             double error_scale_m, RunPictures& run) {
+  MeshView view(kPictureSize, kPictureSize);
+  if (source == nullptr) return DrawSurfaceStrips(run_folder, view, run);
+  run.titles = source->has_truth() ? PictureTitles() : PictureTitlesWithoutTruth();
+  if (source->has_truth()) {
+    run.error_scale_m = error_scale_m;
+  } else {
+    run.keys = {{kEstimateColor, "reconstruction"}};
+  }
+  StripPainter painter(*source, view, run);
+  for (const PictureFrame& frame : source->frames()) run.strips.push_back(painter.Paint(frame));
+}
+
 }  // namespace
 
 const std::vector<std::string>& PictureTitles() {
@@ -215,48 +246,29 @@ std::vector<std::string> PictureTitlesWithoutTruth() {
   return {PictureTitles().begin(), PictureTitles().begin() + 3};
 }
 
-std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment) {
-  std::vector<RunPictures> all;
-  std::vector<std::unique_ptr<PictureSource>> sources;
-  int strips = 0;
-  for (const RunRecord* run : experiment.finished()) {
-    RunPictures pictures;
-    pictures.run_id = run->run_id;
-    pictures.keys = {{kEstimateColor, "reconstruction"},
-                     {kTruthColor, "truth; where both are drawn, the nearer shows"}};
-    // Drawings of a model have neither reconstruction nor truth.
-    if (HasBoneTree(experiment.folder / run->run_id)) pictures.keys.clear();
-    if (HasSurfaceStrips(experiment.folder / run->run_id)) {
-      sources.push_back(nullptr);
-    } else {
-      sources.push_back(OpenPictureSource(experiment, *run, pictures.problem));
-      if (const PictureSource* source = sources.back().get()) {
-        pictures.titles = source->has_truth() ? PictureTitles() : PictureTitlesWithoutTruth();
-        strips += static_cast<int>(source->frames().size());
-      }
-    }
-    all.push_back(std::move(pictures));
-  }
+std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment, const PictureUse& use) {
+  const std::vector<const RunRecord*> runs = experiment.finished();
+  std::vector<RunPictures> all(runs.size());
+  std::vector<std::unique_ptr<PictureSource>> sources(runs.size());
+  WorkerTeam team(GetMachineInfo().threads);
+  const auto for_each_run = [&](const auto& work) {
+    team.For(static_cast<int>(runs.size()), 1, [&](int begin, int end) {
+      for (int r = begin; r < end; ++r) work(static_cast<std::size_t>(r));
+    });
+  };
+  for_each_run([&](std::size_t r) { sources[r] = OpenSource(experiment, *runs[r], all[r]); });
   const double error_scale_m = ErrorScale(sources);
-  MeshView view(kPictureSize, kPictureSize);
-  Progress progress("pictures", strips);
-  for (std::size_t r = 0; r < all.size(); ++r) {
-    if (!all[r].problem.empty()) continue;
-    if (sources[r] == nullptr) {
-      DrawSurfaceStrips(experiment.folder / all[r].run_id, view, all[r]);
-      continue;
-    }
-    if (sources[r]->has_truth()) {
-      all[r].error_scale_m = error_scale_m;
-    } else {
-      all[r].keys = {{kEstimateColor, "reconstruction"}};
-    }
-    StripPainter painter(*sources[r], view, all[r]);
-    for (const PictureFrame& frame : sources[r]->frames()) {
-      all[r].strips.push_back(painter.Paint(frame));
-      progress.Advance();
-    }
-  }
+  Progress progress("pictures", static_cast<int>(runs.size()));
+  std::mutex progress_mutex;
+  for_each_run([&](std::size_t r) {
+    ThrowIfInterrupted();
+    if (all[r].problem.empty())
+      DrawRun(experiment.folder / all[r].run_id, sources[r].get(), error_scale_m, all[r]);
+    sources[r].reset();
+    if (use) use(all[r]);
+    const std::lock_guard lock(progress_mutex);
+    progress.Advance();
+  });
   return all;
 }
 

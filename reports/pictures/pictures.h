@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,14 +12,17 @@
 
 namespace vitruvia {
 
-inline constexpr int kPictureSize = 300;  // pixels, width and height of each picture
+inline constexpr int kPictureSize = 300;     // pixels, width and height of each picture
+inline constexpr double kSheetCell = 210.0;  // page units, width and height of each on a sheet
+// Pixels of a PNG per page unit, at which a sheet's pictures are as they were drawn.
+inline constexpr double kSheetPngScale = kPictureSize / kSheetCell;
 
 struct PictureStrip {
   std::string label, sublabel;  // "frame 90", "3.00 s"
   std::string note;             // how a tracker ended, with its message; errors
   int frame = 0;
   double error_mean_m = 0.0, error_max_m = 0.0;
-  std::vector<ColorImage> pictures;  // in the order of the run's titles
+  std::vector<Picture> pictures;  // in the order of the run's titles
 };
 
 struct ColorKey {
@@ -40,11 +44,16 @@ struct RunPictures {
 const std::vector<std::string>& PictureTitles();
 std::vector<std::string> PictureTitlesWithoutTruth();
 
+// What is done with a run's pictures as soon as they are drawn, on the thread that drew them.
+using PictureUse = std::function<void(RunPictures&)>;
+
 // One entry per finished run: at the experiment's picture frames that the run has, or, of a run
 // that left surfaces instead of frames (records/surface_strips.h), those. The error of a vertex is
 // its distance to the true point that it stands for, which is the closest one in the rest pose that
-// both surfaces share. All runs share one scale of errors, so that their colours compare.
-std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment);
+// both surfaces share. All runs share one scale of errors, so that their colours compare. Runs are
+// drawn on all cores.
+std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment,
+                                      const PictureUse& use = {});
 
 struct SheetStyle {
   double text_size = 12.0;      // page units

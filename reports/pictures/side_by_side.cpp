@@ -7,7 +7,9 @@
 
 #include "analysis/printed_metric.h"
 #include "analysis/variant_comparison.h"
+#include "core/build_info.h"
 #include "core/error.h"
+#include "core/worker_team.h"
 #include "records/estimate.h"
 #include "records/metric_value.h"
 #include "reports/drawing/color_maps.h"
@@ -107,8 +109,9 @@ class RowPainter {
     PictureStrip strip;
     strip.label = "depth";
     for (const Shown& shown : frames_) {
-      strip.pictures.push_back(DepthPicture(sequence_.ReadDepth(shown.frame), shown.part,
-                                            kPictureSize, range_.nearest_m(), range_.farthest_m()));
+      strip.pictures.emplace_back(DepthPicture(sequence_.ReadDepth(shown.frame), shown.part,
+                                               kPictureSize, range_.nearest_m(),
+                                               range_.farthest_m()));
     }
     return strip;
   }
@@ -143,7 +146,7 @@ class RowPainter {
 
   void Paint(const Shown& shown, const std::vector<Vector3f>& vertices, const TriangleMesh& rest,
              const std::vector<Color>& colors, PictureStrip& strip) {
-    strip.pictures.push_back(
+    strip.pictures.emplace_back(
         OnWhite(view_.Draw(camera_, shown.part, {{&vertices, &rest.triangles, colors}})));
   }
 
@@ -190,13 +193,19 @@ RunPictures Painted(const ReportedExperiment& experiment, const RunsOfSequence& 
 
 }  // namespace
 
-std::vector<RunPictures> MakeSideBySide(const ReportedExperiment& experiment) {
-  std::vector<RunPictures> all;
-  if (!experiment.record.side_by_side) return all;
-  MeshView view(kPictureSize, kPictureSize);
-  for (const RunsOfSequence& runs : GroupedBySequence(experiment)) {
-    all.push_back(Painted(experiment, runs, view));
-  }
+std::vector<RunPictures> MakeSideBySide(const ReportedExperiment& experiment,
+                                        const PictureUse& use) {
+  if (!experiment.record.side_by_side) return {};
+  const std::vector<RunsOfSequence> groups = GroupedBySequence(experiment);
+  std::vector<RunPictures> all(groups.size());
+  WorkerTeam team(GetMachineInfo().threads);
+  team.For(static_cast<int>(groups.size()), 1, [&](int begin, int end) {
+    MeshView view(kPictureSize, kPictureSize);
+    for (int i = begin; i < end; ++i) {
+      all[i] = Painted(experiment, groups[i], view);
+      if (use) use(all[i]);
+    }
+  });
   return all;
 }
 

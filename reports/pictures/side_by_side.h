@@ -10,6 +10,7 @@ namespace vitruvia {
 // asks for them. A strip's pictures are the picture frames: first depth, then the truth, then each
 // run's reconstruction, all seen by the camera and held at the place of the truth. Skin that looks
 // to the front in the rest pose has one colour, skin that looks to the back another.
-std::vector<RunPictures> MakeSideBySide(const ReportedExperiment& experiment);
+std::vector<RunPictures> MakeSideBySide(const ReportedExperiment& experiment,
+                                        const PictureUse& use = {});
 
 }  // namespace vitruvia

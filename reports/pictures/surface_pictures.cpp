@@ -115,7 +115,7 @@ void DrawSurfaceStrips(const std::vector<SurfaceStrip>& strips, MeshView& view, 
     drawn.label = strip.label;
     drawn.note = strip.note;
     for (const SurfacePanel& panel : strip.panels)
-      drawn.pictures.push_back(DrawPanel(panel, window, run.error_scale_m, view));
+      drawn.pictures.emplace_back(DrawPanel(panel, window, run.error_scale_m, view));
   }
 }
 

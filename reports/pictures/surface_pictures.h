@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "records/surface_strips.h"
-#include "reports/drawing/mesh_view.h"
+#include "reports/pictures/mesh_view.h"
 #include "reports/pictures/pictures.h"
 
 namespace vitruvia {

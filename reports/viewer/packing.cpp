@@ -6,12 +6,11 @@
 #include <cstring>
 #include <limits>
 #include <stdexcept>
-#include <thread>
 #include <zlib.h>
 
-#include <vtkBase64Utilities.h>
-
+#include "core/build_info.h"
 #include "core/worker_team.h"
+#include "reports/drawing/color_image.h"
 
 namespace vitruvia {
 namespace {
@@ -20,13 +19,14 @@ static_assert(std::endian::native == std::endian::little, "numbers are copied as
 
 constexpr float kFinestStep_m = 1e-4f;
 constexpr int kGridEnd = std::numeric_limits<std::uint16_t>::max();
-constexpr int kCompression = 4;  // of 1 … 9; 6 takes three times as long for 3 % less
+constexpr int kChunkFrames = 32;  // a second: longer chunks are hardly smaller and open later
+constexpr int kCompression = 4;   // of 1 … 9; 6 takes three times as long for 3 % less
 
 constexpr const char* kCodingNames[] = {"plain", "byte_planes", "frame_changes", "motion"};
 
 template <class Number>
-std::vector<std::uint8_t> AsBytes(const std::vector<Number>& values) {
-  std::vector<std::uint8_t> bytes(values.size() * sizeof(Number));
+std::vector<std::uint8_t> AsBytes(std::span<const Number> values) {
+  std::vector<std::uint8_t> bytes(values.size_bytes());
   if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
   return bytes;
 }
@@ -37,7 +37,7 @@ std::uint16_t ZigZag(std::uint16_t difference) {
   return static_cast<std::uint16_t>((value << 1) ^ (value >> 15));
 }
 
-std::vector<std::uint8_t> InBytePlanes(const std::vector<std::uint16_t>& values, int frames) {
+std::vector<std::uint8_t> InBytePlanes(std::span<const std::uint16_t> values, int frames) {
   const std::size_t length = values.size() / static_cast<std::size_t>(std::max(frames, 1));
   std::vector<std::uint8_t> bytes(2 * values.size());
   for (int frame = 0; frame < frames; ++frame) {
@@ -53,7 +53,7 @@ std::vector<std::uint8_t> InBytePlanes(const std::vector<std::uint16_t>& values,
 }
 
 // See Coding::kMotion; all sums wrap round at 16 bits.
-std::vector<std::uint16_t> MotionCoded(const std::vector<std::uint16_t>& values, int frames) {
+std::vector<std::uint16_t> MotionCoded(std::span<const std::uint16_t> values, int frames) {
   const std::size_t length = values.size() / static_cast<std::size_t>(std::max(frames, 1));
   const std::size_t vertices = length / 3;
   std::vector<std::uint16_t> coded(values.size());
@@ -75,12 +75,25 @@ std::vector<std::uint16_t> MotionCoded(const std::vector<std::uint16_t>& values,
   return coded;
 }
 
-std::vector<std::uint8_t> FrameChanges(const std::vector<std::uint8_t>& values, int frames) {
+std::vector<std::uint8_t> FrameChanges(std::span<const std::uint8_t> values, int frames) {
   const std::size_t length = values.size() / static_cast<std::size_t>(std::max(frames, 1));
-  std::vector<std::uint8_t> changes = values;
+  std::vector<std::uint8_t> changes(values.begin(), values.end());
   for (std::size_t i = length; i < values.size(); ++i)
     changes[i] = static_cast<std::uint8_t>(values[i] - values[i - length]);
   return changes;
+}
+
+std::vector<std::uint8_t> Coded(std::span<const std::uint8_t> values, int frames, Coding coding) {
+  return coding == Coding::kFrameChanges ? FrameChanges(values, frames) : AsBytes(values);
+}
+std::vector<std::uint8_t> Coded(std::span<const std::uint16_t> values, int frames, Coding coding) {
+  if (coding == Coding::kPlain) return AsBytes(values);
+  if (coding == Coding::kBytePlanes) return InBytePlanes(values, frames);
+  return InBytePlanes(MotionCoded(values, frames), frames);
+}
+template <class Number>  // of 32 bits
+std::vector<std::uint8_t> Coded(std::span<const Number> values, int /*frames*/, Coding /*plain*/) {
+  return AsBytes(values);
 }
 
 std::vector<std::uint8_t> Compressed(const std::vector<std::uint8_t>& bytes) {
@@ -94,11 +107,8 @@ std::vector<std::uint8_t> Compressed(const std::vector<std::uint8_t>& bytes) {
   return compressed;
 }
 
-std::string Base64(const std::vector<std::uint8_t>& bytes) {
-  std::string text(4 * ((bytes.size() + 2) / 3), '=');
-  vtkBase64Utilities::Encode(bytes.data(), bytes.size(),
-                             reinterpret_cast<unsigned char*>(text.data()));
-  return text;
+std::string InBase64(const std::vector<std::uint8_t>& bytes) {
+  return Base64(bytes.data(), bytes.size());
 }
 
 }  // namespace
@@ -120,44 +130,50 @@ std::vector<std::uint16_t> PositionGrid::Quantised(const std::vector<Vector3f>& 
   return values;
 }
 
-nlohmann::json PackedArrays::Add(std::vector<std::uint8_t> coded, const char* type, Coding coding,
-                                 int frames, std::size_t count) {
-  arrays_.push_back(std::move(coded));
-  return {{"id", arrays_.size() - 1},
-          {"type", type},
-          {"coding", kCodingNames[static_cast<int>(coding)]},
-          {"frames", frames},
-          {"length", frames == 0 ? 0 : count / static_cast<std::size_t>(frames)}};
+template <class Number>
+nlohmann::json PackedArrays::Add(const std::vector<Number>& values, const char* type, Coding coding,
+                                 int frames, int chunk_frames) {
+  const std::size_t length = frames == 0 ? 0 : values.size() / static_cast<std::size_t>(frames);
+  const nlohmann::json about = {{"id", arrays_.size()},
+                                {"type", type},
+                                {"coding", kCodingNames[static_cast<int>(coding)]},
+                                {"frames", frames},
+                                {"chunk_frames", chunk_frames},
+                                {"length", length}};
+  for (int begin = 0; begin == 0 || begin < frames; begin += chunk_frames) {
+    const int count = std::min(chunk_frames, frames - begin);
+    const std::span<const Number> chunk = std::span(values).subspan(
+        static_cast<std::size_t>(begin) * length, static_cast<std::size_t>(count) * length);
+    arrays_.push_back(Coded(chunk, count, coding));
+  }
+  return about;
 }
 
-nlohmann::json PackedArrays::Bytes(std::vector<std::uint8_t> values, int frames, Coding coding) {
-  const std::size_t count = values.size();
-  if (coding == Coding::kFrameChanges) values = FrameChanges(values, frames);
-  return Add(std::move(values), "u8", coding, frames, count);
+nlohmann::json PackedArrays::Bytes(const std::vector<std::uint8_t>& values, int frames,
+                                   Coding coding) {
+  return Add(values, "u8", coding, frames, kChunkFrames);
 }
 
-nlohmann::json PackedArrays::Words(std::vector<std::uint16_t> values, int frames, Coding coding) {
-  const std::size_t count = values.size();
-  if (coding == Coding::kMotion) values = MotionCoded(values, frames);
-  return Add(coding == Coding::kPlain ? AsBytes(values) : InBytePlanes(values, frames), "u16",
-             coding, frames, count);
+nlohmann::json PackedArrays::Words(const std::vector<std::uint16_t>& values, int frames,
+                                   Coding coding) {
+  return Add(values, "u16", coding, frames, kChunkFrames);
 }
 
 nlohmann::json PackedArrays::Indices(const std::vector<std::uint32_t>& values) {
-  return Add(AsBytes(values), "u32", Coding::kPlain, 1, values.size());
+  return Add(values, "u32", Coding::kPlain, 1, 1);
 }
 
 nlohmann::json PackedArrays::Floats(const std::vector<float>& values, int frames) {
-  return Add(AsBytes(values), "f32", Coding::kPlain, frames, values.size());
+  return Add(values, "f32", Coding::kPlain, frames, std::max(frames, 1));
 }
 
 std::string PackedArrays::Html() const {
   std::vector<std::string> elements(arrays_.size());
-  WorkerTeam team(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+  WorkerTeam team(GetMachineInfo().threads);
   team.For(static_cast<int>(arrays_.size()), 1, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       elements[i] = "<script type=\"text/plain\" id=\"array-" + std::to_string(i) + "\">" +
-                    Base64(Compressed(arrays_[i])) + "</script>\n";
+                    InBase64(Compressed(arrays_[i])) + "</script>\n";
     }
   });
   std::string html;

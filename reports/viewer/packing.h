@@ -1,8 +1,9 @@
-// Numbers of a page as text: quantised, compressed (zlib) and in base64, each array in an element
-// of its own. viewer_data.js unpacks them.
+// Numbers of a page as text: quantised, compressed (zlib) and in base64. viewer_data.js unpacks
+// them.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,8 @@ struct PositionGrid {
   std::vector<std::uint16_t> Quantised(const std::vector<Vector3f>& points) const;
 };
 
-// How an array's numbers are stored. All are reversible.
+// How an array's numbers are stored. All are reversible. Frames are coded in chunks that do not
+// depend on each other.
 enum class Coding {
   kPlain,         // as they are
   kBytePlanes,    // 16 bits: all low bytes of a frame, then all high bytes
@@ -37,10 +39,12 @@ enum class Coding {
 
 class PackedArrays {
  public:
-  // `frames` arrays of equal length, one after the other. Each returns how the page refers to the
-  // array: {"id", "type", "coding", "frames", "length"}.
-  nlohmann::json Bytes(std::vector<std::uint8_t> values, int frames, Coding coding);
-  nlohmann::json Words(std::vector<std::uint16_t> values, int frames, Coding coding);
+  // `frames` arrays of equal length, one after the other. Bytes and words are split into chunks of
+  // at most `chunk_frames` frames, each in an element of its own, so that a page unpacks what it
+  // shows. Each function returns how the page refers to the array: {"id", "type", "coding",
+  // "frames", "chunk_frames", "length"}; chunk k stands in element id + k.
+  nlohmann::json Bytes(const std::vector<std::uint8_t>& values, int frames, Coding coding);
+  nlohmann::json Words(const std::vector<std::uint16_t>& values, int frames, Coding coding);
   nlohmann::json Indices(const std::vector<std::uint32_t>& values);
   nlohmann::json Floats(const std::vector<float>& values, int frames);
 
@@ -48,8 +52,9 @@ class PackedArrays {
   std::string Html() const;
 
  private:
-  nlohmann::json Add(std::vector<std::uint8_t> coded, const char* type, Coding coding, int frames,
-                     std::size_t count);
+  template <class Number>
+  nlohmann::json Add(const std::vector<Number>& values, const char* type, Coding coding, int frames,
+                     int chunk_frames);
 
   std::vector<std::vector<std::uint8_t>> arrays_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include <fmt/format.h>
@@ -62,12 +63,16 @@ Json DepthContent(const OpenedRun& run, const std::vector<int>& frames, PackedAr
   const int columns = (camera.width + every - 1) / every;
   const int rows = (camera.height + every - 1) / every;
   std::vector<std::uint16_t> depths;
+  std::uint16_t nearest = std::numeric_limits<std::uint16_t>::max(), farthest = 0;
   for (const int frame : frames) {
     const DepthImage depth = run.sequence->ReadDepth(frame);
     for (int row = 0; row < rows; ++row) {
       for (int column = 0; column < columns; ++column) {
         const double units = depth(column * every, row * every) / kDepthStep_m;
         depths.push_back(static_cast<std::uint16_t>(std::clamp(std::round(units), 0.0, 65535.0)));
+        if (depths.back() == 0) continue;
+        nearest = std::min(nearest, depths.back());
+        farthest = std::max(farthest, depths.back());
       }
     }
   }
@@ -75,8 +80,9 @@ Json DepthContent(const OpenedRun& run, const std::vector<int>& frames, PackedAr
           {"columns", columns},
           {"rows", rows},
           {"step_m", kDepthStep_m},
-          {"values",
-           arrays.Words(std::move(depths), static_cast<int>(frames.size()), Coding::kBytePlanes)}};
+          {"nearest", nearest},
+          {"farthest", farthest},
+          {"values", arrays.Words(depths, static_cast<int>(frames.size()), Coding::kBytePlanes)}};
 }
 
 // Three coordinates of each joint of each frame, NaN where it is not known.
@@ -101,8 +107,7 @@ Json TrueSurface(const OpenedRun& run, const std::vector<int>& frames, const Pag
   return {{"vertices", run.sequence->true_rest_mesh().vertices.size()},
           {"shown", mesh.kept.size()},
           {"triangles", arrays.Indices(Flat(mesh.triangles))},
-          {"positions",
-           arrays.Words(std::move(positions), static_cast<int>(frames.size()), Coding::kMotion)}};
+          {"positions", arrays.Words(positions, static_cast<int>(frames.size()), Coding::kMotion)}};
 }
 
 // Of a surface with its own triangles in each frame: so many of its vertices, as points.
@@ -117,9 +122,9 @@ Json OwnTrueSurface(const OpenedRun& run, const std::vector<int>& frames, const 
     some.resize(kPointsOfOwnSurface, page.grid.origin);
     Append(page.grid.Quantised(some), positions);
   }
-  return {{"shown", kPointsOfOwnSurface},
-          {"positions", arrays.Words(std::move(positions), static_cast<int>(frames.size()),
-                                     Coding::kBytePlanes)}};
+  return {
+      {"shown", kPointsOfOwnSurface},
+      {"positions", arrays.Words(positions, static_cast<int>(frames.size()), Coding::kBytePlanes)}};
 }
 
 // The square root of the length as a share of the largest one: fine where lengths are small.
@@ -275,6 +280,7 @@ Json SequenceContent(const OpenedRun& run, const PageFrame& page, PackedArrays& 
   const SequenceInfo& info = run.sequence->info();
   const std::vector<int> frames = FramesOf(run, page);
   Json content = {{"scene", run.record.scene},
+                  {"hash", run.record.sequence_hash},
                   {"fps", info.fps},
                   {"frames", info.frames},
                   {"camera", CameraContent(info.camera)},
@@ -308,7 +314,7 @@ Json RunContent(const OpenedRun& run, int sequence, const PageFrame& page, Packe
                    {{"vertices", rest.vertices.size()},
                     {"shown", mesh.kept.size()},
                     {"triangles", arrays.Indices(Flat(mesh.triangles))},
-                    {"positions", arrays.Words(std::move(positions), count, Coding::kMotion)},
+                    {"positions", arrays.Words(positions, count, Coding::kMotion)},
                     {"template", arrays.Floats(template_positions, 1)}}},
                   {"joints", arrays.Floats(EstimatedJoints(*run.estimate),
                                            static_cast<int>(run.estimate->frames().size()))},
@@ -320,8 +326,7 @@ Json RunContent(const OpenedRun& run, int sequence, const PageFrame& page, Packe
   if (run.sequence->info().surface) {
     VertexColors colors = CompareWithTruth(run, frames, mesh);
     content["surface"]["error"] = LengthContent(colors.errors_m, count, arrays);
-    content["surface"]["visible"] =
-        arrays.Bytes(std::move(colors.visible), count, Coding::kFrameChanges);
+    content["surface"]["visible"] = arrays.Bytes(colors.visible, count, Coding::kFrameChanges);
   }
   if (run.sequence->info().subject) {
     const BonePlacement bones(mesh.Of(rest.vertices), run.sequence->subject());

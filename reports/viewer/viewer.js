@@ -9,6 +9,7 @@ const kColors = [
   ["error", "error"], ["visible", "visible or hidden"], ["bone", "bone"],
   ["warp", "warp: distance from the skinned template"], ["plain", "plain"],
 ];
+const kPrefetch = 32;  // frames that are unpacked ahead while the body moves
 const element = id => document.getElementById(id);
 
 function percent(share) {
@@ -16,8 +17,10 @@ function percent(share) {
 }
 
 class Viewer {
-  constructor(page) {
+  // others: addresses of pages whose runs stand beside this one's
+  constructor(page, others) {
     this.page = page;
+    this.others = others;
     this.fps = page.sequences[page.runs[0].sequence].fps;
     this.state = {frame: 0, layers: new Set(["estimate", "depth"]), color: "plain", series: "",
                   layout: "beside", speed: 1, scale_mm: 1e3 * page.error_scale_m, follow: false, difference: false, logarithmic: false};
@@ -29,6 +32,12 @@ class Viewer {
     this.listen();
     this.draw();
     setTimeout(() => this.drawEventPictures(), 100);
+  }
+
+  // When what was asked for is drawn.
+  async settled() {
+    await new Promise(drawn => requestAnimationFrame(() => requestAnimationFrame(drawn)));
+    await this.stage.settled;
   }
 
   // What some run of the page has.
@@ -106,14 +115,14 @@ class Viewer {
     });
   }
 
-  // One picture in each idle moment; the stage is left as it was.
-  drawEventPictures() {
-    const next = this.eventPictures.shift();
-    if (!next) return;
-    const {stage, state} = this;
-    next.picture.src = stage.picture(next.run, next.frame, new Set(["estimate", "truth"]), state.color);
-    this.draw();
-    setTimeout(() => this.drawEventPictures(), 0);
+  // One picture in each idle moment.
+  async drawEventPictures() {
+    for (; this.eventPictures.length > 0; await new Promise(idle => setTimeout(idle, 0))) {
+      const {picture, run, frame} = this.eventPictures[0];
+      picture.src = await this.stage.picture(run, frame, new Set(["estimate", "truth"]), this.state.color);
+      this.eventPictures.shift();
+    }
+    this.update();
   }
 
   causeTable(run) {
@@ -273,7 +282,10 @@ class Viewer {
       last = now;
       const steps = Math.floor(passed);
       passed -= steps;
-      if (steps > 0) this.go((this.state.frame + steps) % this.page.frames);
+      if (steps > 0) {
+        this.go((this.state.frame + steps) % this.page.frames);
+        this.stage.prefetch(Math.min(this.state.frame + kPrefetch, this.page.frames - 1));
+      }
       requestAnimationFrame(tick);
     };
     requestAnimationFrame(tick);
@@ -345,7 +357,7 @@ class Viewer {
     element("values").replaceChildren(...lines, what);
     const time = (state.frame / this.fps).toFixed(2);
     page.runs.forEach((run, i) => {
-      const stored = page.stored_frames[storedIndex(page, Math.min(state.frame, run.frames - 1))];
+      const stored = run.stored_frames[storedIndex(run, Math.min(state.frame, run.frames - 1))];
       const parts = [`frame ${state.frame}, ${time} s`];
       if (state.frame >= run.frames) parts.push(`the run ended at frame ${run.frames - 1}`);
       else if (stored !== state.frame) parts.push(`surface of frame ${stored}`);
@@ -393,7 +405,9 @@ class Viewer {
                      scale: state.scale_mm,
                      view: numbers.map(x => Number(x.toFixed(3))).join(" ")};
     for (const flag of ["follow", "difference", "logarithmic"]) if (state[flag]) entries[flag] = 1;
-    this.address = "#" + new URLSearchParams(entries);
+    const address = new URLSearchParams(entries);
+    for (const other of this.others) address.append("with", other);
+    this.address = "#" + address;
     if (this.address !== location.hash) history.replaceState(null, "", this.address);
   }
 
@@ -435,13 +449,15 @@ class Viewer {
 }
 
 async function open() {
-  const started = performance.now();
+  if (isAsked()) return give();
+  const others = new URLSearchParams(location.hash.slice(1)).getAll("with");
   try {
-    const page = await loadPage();
+    const page = await loadPage(others);
     element("shown").hidden = false;
-    window.viewer = new Viewer(page);
+    window.viewer = new Viewer(page, others);
+    await window.viewer.stage.settled;
     element("loading").remove();
-    window.viewer.openedAfter_ms = performance.now() - started;
+    window.viewer.openedAfter_ms = performance.now();  // since the page was asked for
   } catch (error) {
     element("loading").className = "problem";
     element("loading").textContent = "The page cannot be shown: " + error.message +

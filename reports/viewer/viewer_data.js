@@ -42,11 +42,12 @@ function fromFrameChanges(bytes, length) {
   return bytes;
 }
 
-function decoded(buffer, about) {
+// A chunk of so many frames.
+function decoded(buffer, about, frames) {
   const bytes = new Uint8Array(buffer);
   switch (about.coding) {
-    case "byte_planes": return fromBytePlanes(bytes, about.frames, about.length);
-    case "motion": return fromMotion(bytes, about.frames, about.length);
+    case "byte_planes": return fromBytePlanes(bytes, frames, about.length);
+    case "motion": return fromMotion(bytes, frames, about.length);
     case "frame_changes": return fromFrameChanges(bytes, about.length);
   }
   switch (about.type) {
@@ -57,30 +58,68 @@ function decoded(buffer, about) {
   return bytes;
 }
 
-// Frames of numbers.
+// Frames of numbers, unpacked a chunk at a time when they are wanted. `texts(id)` is an element's
+// text.
 class FrameArray {
-  constructor(values, frames, length) {
-    this.values = values;
-    this.frames = frames;
-    this.length = length;
+  static mostChunks = 8;  // unpacked at a time
+
+  constructor(about, texts) {
+    this.about = about;
+    this.texts = texts;
+    this.frames = about.frames;
+    this.length = about.length;
+    this.chunks = new Map();  // number → its values; the one used last stands last
+    this.coming = new Map();  // number → promise
+  }
+  get isOneChunk() {
+    return this.frames <= this.about.chunk_frames;
+  }
+  // All values of an array of one chunk.
+  get values() {
+    return this.chunks.get(0);
+  }
+  chunkOf(frame) {
+    return Math.floor(frame / this.about.chunk_frames);
+  }
+  has(frame) {
+    return this.chunks.has(this.chunkOf(frame));
+  }
+  // Afterwards at(frame) gives the frame's values, until chunks enough of other frames were loaded.
+  load(frame) {
+    const chunk = this.chunkOf(frame);
+    if (this.chunks.has(chunk)) return Promise.resolve();
+    if (!this.coming.has(chunk)) this.coming.set(chunk, this.unpack(chunk));
+    return this.coming.get(chunk);
+  }
+  async unpack(chunk) {
+    const {about} = this;
+    const frames = Math.min(about.chunk_frames, about.frames - chunk * about.chunk_frames);
+    this.keep(chunk, decoded(await inflated(this.texts(about.id + chunk)), about, frames));
+    this.coming.delete(chunk);
+  }
+  keep(chunk, values) {
+    this.chunks.delete(chunk);
+    this.chunks.set(chunk, values);
+    if (this.chunks.size > FrameArray.mostChunks) this.chunks.delete(this.chunks.keys().next().value);
   }
   at(frame) {
-    return this.values.subarray(frame * this.length, (frame + 1) * this.length);
+    const chunk = this.chunkOf(frame), values = this.chunks.get(chunk);
+    this.keep(chunk, values);
+    const first = (frame - chunk * this.about.chunk_frames) * this.length;
+    return values.subarray(first, first + this.length);
   }
 }
 
-async function unpackedArray(about) {
-  const element = document.getElementById("array-" + about.id);
-  const values = decoded(await inflated(element.textContent), about);
-  element.remove();
-  return new FrameArray(values, about.frames, about.length);
-}
-
-// The same JSON with a FrameArray in place of each reference to an array.
-async function unpacked(value) {
+// The same JSON with a FrameArray in place of each reference to an array. Arrays of one chunk are
+// unpacked.
+async function unpacked(value, texts) {
   if (value === null || typeof value !== "object") return value;
-  if ("coding" in value) return unpackedArray(value);
-  const parts = await Promise.all(Object.values(value).map(unpacked));
+  if ("coding" in value) {
+    const array = new FrameArray(value, texts);
+    if (array.isOneChunk) await array.load(0);
+    return array;
+  }
+  const parts = await Promise.all(Object.values(value).map(part => unpacked(part, texts)));
   if (Array.isArray(value)) return parts;
   return Object.fromEntries(Object.keys(value).map((key, i) => [key, parts[i]]));
 }
@@ -115,15 +154,80 @@ function seriesOf(page) {
   return all;
 }
 
-async function loadPage() {
-  const page = await unpacked(JSON.parse(document.getElementById("content").textContent));
+// What a page holds, packed.
+function ownParcel() {
+  return {content: document.getElementById("content").textContent,
+          arrays: [...document.querySelectorAll("script[id^=array-]")].map(part => part.textContent)};
+}
+
+// A page in a frame whose address ends so gives its content to the page around it.
+const kGive = "#give";
+function isAsked() {
+  return location.hash === kGive && parent !== window;
+}
+function give() {
+  parent.postMessage({viewerParcel: ownParcel()}, "*");
+}
+
+// The content of another page, by its address relative to this one.
+function parcelFrom(address) {
+  const patience_ms = 30000;
+  return new Promise((take, refuse) => {
+    const frame = document.createElement("iframe");
+    const finish = (settle, what) => {
+      removeEventListener("message", receive);
+      clearTimeout(timer);
+      frame.remove();
+      settle(what);
+    };
+    const receive = event => {
+      if (event.source === frame.contentWindow && event.data.viewerParcel)
+        finish(take, event.data.viewerParcel);
+    };
+    const missing = () => finish(refuse, new Error("no viewer's page at " + address));
+    const timer = setTimeout(missing, patience_ms);
+    addEventListener("message", receive);
+    frame.addEventListener("load", () => setTimeout(missing, 3000));
+    frame.hidden = true;
+    frame.src = new URL(address, location.href.split("#")[0]).href + kGive;
+    document.body.append(frame);
+  });
+}
+
+// Several pages as one. Sequences and runs keep their page's grid and stored frames; runs of one
+// sequence share it.
+function merged(contents) {
+  const [first] = contents;
+  const page = {...first, sequences: [], runs: [], notes: contents.flatMap(content => content.notes),
+                frames: Math.max(...contents.map(content => content.frames)),
+                error_scale_m: Math.max(...contents.map(content => content.error_scale_m))};
+  for (const content of contents) {
+    const own = {grid: content.grid, stored_frames: content.stored_frames};
+    const places = content.sequences.map(sequence => {
+      let place = page.sequences.findIndex(other => other.hash === sequence.hash);
+      if (place < 0) place = page.sequences.push({...sequence, ...own}) - 1;
+      return place;
+    });
+    for (const run of content.runs)
+      page.runs.push({...run, ...own, sequence: places[run.sequence]});
+  }
+  return page;
+}
+
+// This page's runs, and those of other pages (addresses relative to this one) beside them.
+async function loadPage(others) {
+  const own = {content: document.getElementById("content").textContent, arrays: null};
+  const parcels = await Promise.all([own, ...others.map(parcelFrom)]);
+  const contents = await Promise.all(parcels.map(({content, arrays}) => unpacked(
+      JSON.parse(content),
+      arrays ? id => arrays[id] : id => document.getElementById("array-" + id).textContent)));
+  const page = merged(contents);
   page.series = seriesOf(page);
   return page;
 }
 
-// The position in page.stored_frames of the stored frame nearest to a frame.
-function storedIndex(page, frame) {
-  const frames = page.stored_frames;
+// The position among an owner's stored frames of the one nearest to a frame.
+function storedIndex({stored_frames: frames}, frame) {
   let low = 0, high = frames.length - 1;
   while (low < high) {
     const middle = low + high + 1 >> 1;

@@ -59,6 +59,10 @@ class MovingSurface {
     this.object.scale.setScalar(grid.step_m);
   }
 
+  needs(stored) {
+    return [[this.surface.positions, stored]];
+  }
+
   show(stored) {
     this.position.array.set(this.surface.positions.at(stored));
     this.position.needsUpdate = true;
@@ -93,19 +97,13 @@ class DepthPoints {
     this.object = new THREE.Points(geometry, new THREE.PointsMaterial(
         {vertexColors: THREE.VertexColors, size: 2.5, sizeAttenuation: false}));
     this.object.frustumCulled = false;
-    this.setRange();
+    // Nearest and farthest depth of all frames: colours mean the same in each.
+    this.nearest = sequence.depth.nearest;
+    this.span = Math.max(1, sequence.depth.farthest - this.nearest);
   }
 
-  // Nearest and farthest depth of all frames: colours mean the same in each.
-  setRange() {
-    let nearest = 65535, farthest = 0;
-    for (const depth of this.sequence.depth.values.values) {
-      if (depth === 0) continue;
-      if (depth < nearest) nearest = depth;
-      if (depth > farthest) farthest = depth;
-    }
-    this.nearest = nearest;
-    this.span = Math.max(1, farthest - nearest);
+  needs(stored) {
+    return [[this.sequence.depth.values, stored]];
   }
 
   show(stored) {
@@ -181,7 +179,7 @@ function frustumOf(camera) {
 }
 
 // The rest pose, standing to the left of the body's place in the first frame.
-function templateOf(run, firstPositions, grid, color) {
+function templateOf(run, color) {
   const asideBy = 1.3;  // metres
   const positions = Float32Array.from(run.surface.template.values);
   for (let i = 0; i < positions.length; i += 3) {  // subject frame to camera frame
@@ -193,7 +191,7 @@ function templateOf(run, firstPositions, grid, color) {
   geometry.setIndex(new THREE.BufferAttribute(run.surface.triangles.values, 1));
   geometry.computeVertexNormals();
   geometry.computeBoundingBox();
-  const body = new THREE.Box3();
+  const {grid} = run, firstPositions = run.surface.positions.at(0), body = new THREE.Box3();
   for (let i = 0; i < firstPositions.length; i += 3) {
     body.expandByPoint(new THREE.Vector3().fromArray(firstPositions, i)
                            .multiplyScalar(grid.step_m).add(new THREE.Vector3(...grid.origin)));
@@ -223,19 +221,20 @@ class RunScene {
     this.scene.add(this.light, this.light.target, new THREE.HemisphereLight(0xffffff, 0x777788, 0.6));
 
     const links = page.bones.map((bone, i) => [i, bone.parent]).filter(link => link[1] >= 0);
+    this.ownColor = ownColor;
     this.moving = {
-      estimate: new MovingSurface(run.surface, page.grid, ownColor, 1),
+      estimate: new MovingSurface(run.surface, run.grid, ownColor, 1),
       depth: new DepthPoints(sequence, palette.depth),
     };
     this.skeletons = [];
     this.layers = {};
     if (sequence.truth)
-      this.moving.truth = new MovingSurface(sequence.truth, page.grid, trueColor,
+      this.moving.truth = new MovingSurface(sequence.truth, sequence.grid, trueColor,
                                             sequence.truth.triangles ? 0.45 : 1);
     for (const name in this.moving) this.layers[name] = this.moving[name].object;
     this.addSkeletons(links, ownColor, trueColor);
     this.layers.frustum = frustumOf(sequence.camera);
-    this.layers.template = templateOf(run, run.surface.positions.at(0), page.grid, ownColor);
+    this.layers.template = new THREE.Group();  // filled when it is first shown
     for (const name in this.layers) this.root.add(this.layers[name]);
   }
 
@@ -254,24 +253,54 @@ class RunScene {
     this.layers.skeleton = group;
   }
 
-  show(frame) {
-    const own = Math.min(frame, this.run.frames - 1);
-    const stored = Math.min(storedIndex(this.page, own), this.run.surface.positions.frames - 1);
-    if (stored !== this.stored)
-      for (const name in this.moving) this.moving[name].show(stored);
-    this.stored = stored;
-    for (const skeleton of this.skeletons) skeleton.show(own);
+  // Of a layer: whose stored frames it has, and which of them shows a frame.
+  storedOf(name, frame) {
+    const {run, sequence} = this;
+    const owner = name === "estimate" ? run : sequence;
+    return Math.min(storedIndex(owner, Math.min(frame, run.frames - 1)),
+                    (name === "estimate" ? run.surface.positions : sequence.depth.values).frames - 1);
   }
 
-  paint(colorBy, errorScale_m) {
-    this.moving.estimate.paint(this.painter(colorBy, errorScale_m));
+  // What must be loaded before show() with the same arguments: pairs of an array and a frame of it.
+  needs(frame, layers, colorBy) {
+    const needed = [];
+    for (const name in this.moving)
+      if (layers.has(name)) needed.push(...this.moving[name].needs(this.storedOf(name, frame)));
+    const {surface} = this.run;
+    const colors = kLengths.has(colorBy) ? surface[colorBy] && surface[colorBy].values
+                                         : colorBy === "visible" && surface.visible;
+    if (layers.has("estimate") && colors) needed.push([colors, this.storedOf("estimate", frame)]);
+    if (layers.has("template") && this.layers.template.children.length === 0)
+      needed.push([surface.positions, 0]);
+    return needed;
+  }
+
+  // Draws anew what is seen and has changed.
+  show(frame, layers, colorBy, errorScale_m) {
+    if (layers.has("template") && this.layers.template.children.length === 0)
+      this.layers.template.add(templateOf(this.run, this.ownColor));
+    for (const name in this.moving) {
+      const moving = this.moving[name], stored = this.storedOf(name, frame);
+      if (!layers.has(name) || moving.shown === stored) continue;
+      moving.show(stored);
+      moving.shown = stored;
+    }
+    if (layers.has("skeleton")) {
+      for (const skeleton of this.skeletons) skeleton.show(Math.min(frame, this.run.frames - 1));
+    }
+    const paint = [this.moving.estimate.shown, colorBy, errorScale_m].join();
+    if (layers.has("estimate") && this.painted !== paint) {
+      this.moving.estimate.paint(this.painter(this.moving.estimate.shown, colorBy, errorScale_m));
+      this.painted = paint;
+    }
+    for (const name in this.layers) this.layers[name].visible = layers.has(name);
   }
 
   // Null: the surface's own colour.
-  painter(colorBy, errorScale_m) {
+  painter(stored, colorBy, errorScale_m) {
     const surface = this.run.surface, palette = this.page.palette;
     if (kLengths.has(colorBy) && surface[colorBy]) {
-      const bytes = surface[colorBy].values.at(this.stored);
+      const bytes = surface[colorBy].values.at(stored);
       const scale = surface[colorBy].most_m / errorScale_m, ramp = palette.error;
       const colors = Array.from({length: 256}, (_, b) => {
         const share = Math.min(1, (b / 255) ** 2 * scale);
@@ -280,7 +309,7 @@ class RunScene {
       return v => colors[bytes[v]];
     }
     if (colorBy === "visible" && surface.visible) {
-      const visible = surface.visible.at(this.stored);
+      const visible = surface.visible.at(stored);
       return v => visible[v] ? kVisibleColor : kHiddenColor;
     }
     if (colorBy === "bone" && surface.bone)
@@ -337,49 +366,83 @@ class Stage {
     this.frame = 0;
     // Views are set round where the body is in the first frame in which it is followed.
     const lost = new Set(page.runs[0].lost);
-    const followed = page.stored_frames.find(frame => !lost.has(frame));
+    const followed = page.runs[0].stored_frames.find(frame => !lost.has(frame));
+    this.settled = Promise.resolve();
     this.home = this.pelvis(followed === undefined ? 0 : followed);
     this.view = new View(this.home, 2.9);
   }
 
-  // Of the first run, in the scenes' frame.
-  pelvis(frame) {
-    const run = this.page.runs[0];
+  // In the scenes' frame.
+  pelvis(frame, index = 0) {
+    const run = this.page.runs[index];
     const joints = run.joints.at(Math.min(frame, run.frames - 1));
     if (joints.length >= 3) return new THREE.Vector3(joints[0], -joints[1], -joints[2]);
-    const {origin, step_m} = this.page.grid;
+    const {origin, step_m} = run.grid;
     return new THREE.Vector3(origin[0] + step_m * 32768, -origin[1] - step_m * 32768,
                              -origin[2] - step_m * 32768);
   }
 
+  // Loads what a frame's picture needs.
+  load(scenes, frame, layers, colorBy) {
+    const missing = scenes.flatMap(scene => scene.needs(frame, layers, colorBy))
+                        .filter(([array, stored]) => !array.has(stored));
+    return missing.length ? Promise.all(missing.map(([array, stored]) => array.load(stored))) : null;
+  }
+
+  // Draws when all is loaded; of several calls that wait, the last. `settled`: a promise of that.
   show(frame, layers, colorBy) {
+    const wanted = this.wanted = {frame, layers: new Set(layers), colorBy};
+    const loading = this.load(this.scenes, frame, layers, colorBy);
+    if (!loading) return this.showLoaded(wanted);
+    this.settled = loading.then(() => {
+      if (this.wanted === wanted) this.show(frame, layers, colorBy);
+    });
+  }
+
+  // What comes next while the body moves.
+  prefetch(frame) {
+    if (this.wanted) this.load(this.scenes, frame, this.wanted.layers, this.wanted.colorBy);
+  }
+
+  showLoaded({frame, layers, colorBy}) {
     this.frame = frame;
     this.scenes.forEach((scene, i) => {
-      scene.show(frame);
-      scene.paint(colorBy, this.errorScale_m);
+      scene.show(frame, layers, colorBy, this.errorScale_m);
       const shared = this.overlaid && i > 0 &&
                      this.page.runs[i].sequence === this.page.runs[0].sequence;
-      for (const name in scene.layers) {
-        const ofSequence = name === "truth" || name === "depth" || name === "frustum";
-        scene.layers[name].visible = layers.has(name) && !(shared && ofSequence);
-      }
+      if (!shared) return;
+      for (const name of ["truth", "depth", "frustum"])
+        if (scene.layers[name]) scene.layers[name].visible = false;
     });
     this.draw();
   }
 
-  // A small picture of one run's frame, as a data address: the middle of its pane.
-  picture(run, frame, layers, colorBy) {
-    const {follow} = this;
-    this.follow = true;
-    this.show(frame, layers, colorBy);
-    this.follow = follow;
-    const size = 144, picture = document.createElement("canvas");
-    picture.width = picture.height = size;
-    const {width, height} = this.canvas;
-    const pane = width / (this.overlaid ? 1 : this.scenes.length), side = Math.min(pane, height);
-    const left = (this.overlaid ? 0 : run * pane) + (pane - side) / 2;
-    picture.getContext("2d").drawImage(this.canvas, left, (height - side) / 2, side, side, 0, 0, size, size);
-    return picture.toDataURL("image/png");
+  // A small picture of one run's frame, as a data address. What is seen stays as it is.
+  async picture(run, frame, layers, colorBy) {
+    const size = 144, finer = 2, side = size * finer, scene = this.scenes[run];
+    const target = this.smallTarget = this.smallTarget || new THREE.WebGLRenderTarget(side, side);
+    await this.load([scene], frame, layers, colorBy);
+    scene.show(frame, layers, colorBy, this.errorScale_m);
+    this.camera.aspect = 1;
+    this.camera.fov = 2 * Math.atan(kHalfAngleTangent) * 180 / Math.PI;
+    this.camera.updateProjectionMatrix();
+    this.view.place(this.camera, this.pelvis(frame, run).sub(this.home));
+    this.renderer.setRenderTarget(target);
+    this.renderer.setScissorTest(false);
+    this.renderer.setClearColor(this.background);
+    this.renderer.clear();
+    this.render(scene);
+    const pixels = new Uint8ClampedArray(4 * side * side);
+    this.renderer.readRenderTargetPixels(target, 0, 0, side, side, pixels);
+    this.renderer.setRenderTarget(null);
+    return smallPicture(pixels, side, size);
+  }
+
+  render(scene) {
+    scene.light.position.copy(this.camera.position);
+    scene.light.target.position.copy(this.camera.position).addScaledVector(
+        this.camera.getWorldDirection(new THREE.Vector3()), this.view.distance);
+    this.renderer.render(scene.scene, this.camera);
   }
 
   draw() {
@@ -406,11 +469,22 @@ class Stage {
       this.renderer.setViewport(left, 0, right - left, height);
       this.renderer.setScissor(left, 0, right - left, height);
       if (i === 0 || !this.overlaid) this.renderer.clear();
-      scene.light.position.copy(this.camera.position);
-      scene.light.target.position.copy(this.view.target);
-      this.renderer.render(scene.scene, this.camera);
+      this.render(scene);
     });
   }
+}
+
+// Square pixels, the bottom row first, as a smaller picture's data address.
+function smallPicture(pixels, side, size) {
+  const large = document.createElement("canvas"), small = document.createElement("canvas");
+  large.width = large.height = side;
+  small.width = small.height = size;
+  large.getContext("2d").putImageData(new ImageData(pixels, side, side), 0, 0);
+  const pen = small.getContext("2d");
+  pen.imageSmoothingQuality = "high";
+  pen.setTransform(1, 0, 0, -1, 0, size);
+  pen.drawImage(large, 0, 0, size, size);
+  return small.toDataURL("image/png");
 }
 
 // Pointer and wheel: drag turns, drag with Shift or the right button moves, wheel and pinch zoom.

@@ -208,11 +208,14 @@ Diagnosis WithoutTruth(const EstimateReader& estimate) {
 Cause Diagnosis::Main() const { return LargestCause(shares); }
 
 Diagnosis Diagnose(const SequenceReader& sequence, const EstimateReader& estimate) {
-  const bool has_joints = !estimate.frames().empty() &&
-                          estimate.frames().front().joints.size() == kBoneCount &&
-                          !sequence.info().joints.empty();
+  return Diagnose(GatherEvidence(sequence), estimate);
+}
+
+Diagnosis Diagnose(const std::vector<FrameEvidence>& gathered, const EstimateReader& estimate) {
+  const bool has_joints = !gathered.empty() && !estimate.frames().empty() &&
+                          estimate.frames().front().joints.size() == kBoneCount;
   if (!has_joints) return WithoutTruth(estimate);
-  std::vector<FrameEvidence> evidence = GatherEvidence(sequence);
+  std::vector<FrameEvidence> evidence = gathered;
   evidence.resize(std::min(evidence.size(), estimate.frames().size()));
   std::vector<JointErrors17> errors_m;
   for (std::size_t i = 0; i < evidence.size(); ++i)

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "diagnosis/cause.h"
+#include "diagnosis/joint_evidence.h"
 #include "records/estimate.h"
 #include "records/run_record.h"
 #include "sequence/sequence.h"
@@ -38,5 +39,8 @@ inline constexpr std::size_t kMostEvents = 10;
 // Nothing is known of a sequence without true joints: its diagnosis has lost frames only, those
 // that the tracker reported.
 Diagnosis Diagnose(const SequenceReader& sequence, const EstimateReader& estimate);
+// The same from what was gathered of the sequence before, for several runs of it. `evidence`: of
+// GatherEvidence, empty where the sequence has no true joints.
+Diagnosis Diagnose(const std::vector<FrameEvidence>& evidence, const EstimateReader& estimate);
 
 }  // namespace vitruvia

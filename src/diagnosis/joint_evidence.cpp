@@ -192,6 +192,7 @@ std::array<double, kBoneCount> BoneRadii(const SequenceReader& sequence) {
 }
 
 std::vector<FrameEvidence> GatherEvidence(const SequenceReader& sequence) {
+  if (sequence.info().joints.empty()) return {};
   const PinholeCamera& camera = sequence.info().camera;
   const std::array<double, kBoneCount> radii_m = BoneRadii(sequence);
   CleanDepth clean(sequence);

@@ -31,7 +31,7 @@ struct FrameEvidence {
 // The thickness of a bone's flesh, from the subject's rest mesh, or of a usual body without one.
 std::array<double, kBoneCount> BoneRadii(const SequenceReader& sequence);
 
-// Of every frame. The sequence must have true joints.
+// Of every frame; empty where the sequence has no true joints.
 std::vector<FrameEvidence> GatherEvidence(const SequenceReader& sequence);
 
 }  // namespace vitruvia

@@ -45,9 +45,10 @@ TEST_P(Causes, OfItsSceneRanksFirst) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OneAtATime, Causes,
-                         testing::Values(Cause::kSmall, Cause::kStart, Cause::kOutOfView,
-                                         Cause::kHidden, Cause::kNoData, Cause::kFewPairs,
-                                         Cause::kFast, Cause::kNoise, Cause::kLimbOnBody),
+                         testing::Values(Cause::kSmall, Cause::kFacing, Cause::kStart,
+                                         Cause::kOutOfView, Cause::kHidden, Cause::kNoData,
+                                         Cause::kFewPairs, Cause::kFast, Cause::kNoise,
+                                         Cause::kLimbOnBody),
                          [](const auto& of) { return VariantOf(of.param); });
 
 }  // namespace

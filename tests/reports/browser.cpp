@@ -1,5 +1,6 @@
 #include "reports/browser.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -17,7 +18,21 @@ namespace {
 constexpr const char* kFlags =
     "--headless --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader "
     "--enable-logging=stderr --virtual-time-budget=20000";
-constexpr int kHeight = 900;  // of the window, pixels
+constexpr int kHeight = 900;           // of the window, pixels
+constexpr int kNarrowestWindow = 500;  // that this browser opens
+
+// A narrower page stands in a frame and tells its title to the window.
+constexpr const char* kPhone = R"html(<!doctype html><title>phone</title>
+<iframe src="probed.html" style="width:{}px;height:812px;border:0"></iframe>
+<script>addEventListener("message", event => document.title = event.data);</script>
+)html";
+constexpr const char* kTellTheWindow = R"html(<script>
+const tell = setInterval(() => {
+  if (!document.title.startsWith("{")) return;
+  clearInterval(tell);
+  parent.postMessage(document.title, "*");
+}, 20);
+</script>)html";
 
 std::string OutputOf(const std::string& command) {
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
@@ -56,20 +71,34 @@ bool HasBrowser() {
   return std::system(fmt::format("command -v {} >/dev/null 2>&1", kBrowser).c_str()) == 0;
 }
 
-SeenPage OpenInBrowser(const fs::path& page, const std::string& probe, int width,
-                       const fs::path& screenshot) {
+SeenPage OpenInBrowser(const fs::path& page, const std::string& probe, const Visit& visit) {
+  const fs::path probed = page.parent_path() / "probed.html";
   std::string text = ReadWholeFile(page);
   text.insert(text.rfind("</body>"), "<script>" + probe + "</script>");
-  const fs::path probed = page.parent_path() / "probed.html";
+  fs::path shown = probed;
+  if (visit.width < kNarrowestWindow) {
+    text.insert(text.rfind("</body>"), kTellTheWindow);
+    shown = page.parent_path() / "phone.html";
+    WriteWholeFile(shown, fmt::format(kPhone, visit.width));
+  }
   WriteWholeFile(probed, text);
   const std::string picture =
-      screenshot.empty() ? "" : fmt::format("--screenshot='{}'", screenshot.string());
-  const std::string output = OutputOf(
-      fmt::format("timeout 100 {} {} --user-data-dir='{}' --window-size={},{} {} --dump-dom "
-                  "'file://{}' 2>&1",
-                  kBrowser, kFlags, (page.parent_path() / "profile").string(), width, kHeight,
-                  picture, fs::absolute(probed).string()));
+      visit.screenshot.empty() ? "" : fmt::format("--screenshot='{}'", visit.screenshot.string());
+  const std::string output = OutputOf(fmt::format(
+      "timeout 100 {} {} {} --user-data-dir='{}' --window-size={},{} {} --dump-dom "
+      "'file://{}{}{}' 2>&1",
+      kBrowser, kFlags, visit.dark ? "--blink-settings=preferredColorScheme=0" : "",
+      (page.parent_path() / "profile").string(), std::max(visit.width, kNarrowestWindow), kHeight,
+      picture, fs::absolute(shown).string(), visit.fragment.empty() ? "" : "#", visit.fragment));
   return {nlohmann::json::parse(TitleIn(output)), ConsoleIn(output)};
+}
+
+void PrintInBrowser(const fs::path& page, const fs::path& pdf) {
+  OutputOf(fmt::format(
+      "timeout 100 {} {} --user-data-dir='{}' --no-pdf-header-footer --print-to-pdf='{}' "
+      "'file://{}' 2>&1",
+      kBrowser, kFlags, (page.parent_path() / "profile").string(), pdf.string(),
+      fs::absolute(page).string()));
 }
 
 }  // namespace vitruvia

@@ -17,10 +17,20 @@ struct SeenPage {
   std::string console;   // messages and errors of the page; "" if there are none
 };
 
-// A copy of the page with a script of its own added, as a window of that width shows it. The script
-// has 20 s of the page's time to make document.title a JSON text. `screenshot`: where a picture of
-// the window goes; "": nowhere. std::runtime_error if the title does not come.
-SeenPage OpenInBrowser(const std::filesystem::path& page, const std::string& probe, int width,
-                       const std::filesystem::path& screenshot = {});
+struct Visit {
+  int width = 1280;                    // of the window; below 500 of a frame in it, as a phone's is
+  std::string fragment{};              // of the address, after #
+  bool dark = false;                   // whether the system asks for dark pages
+  std::filesystem::path screenshot{};  // where a picture of the window goes; "": nowhere
+};
+
+// A copy of the page with a script of its own added, as the browser shows it. The script has 20 s
+// of the page's time to make document.title a JSON text. std::runtime_error if the title does not
+// come.
+SeenPage OpenInBrowser(const std::filesystem::path& page, const std::string& probe,
+                       const Visit& visit = {});
+
+// The page as it is printed.
+void PrintInBrowser(const std::filesystem::path& page, const std::filesystem::path& pdf);
 
 }  // namespace vitruvia

@@ -1,7 +1,9 @@
-// What is exported for other programs, read back by them: glTF by VTK and by Khronos' validator,
+// What is exported for other programs, read back by them: glTF by VTK, Khronos' validator and f3d,
 // BVH by our own reader of motion capture.
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <sstream>
 
@@ -16,6 +18,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "records/estimate.h"
+#include "reports/drawing/color_image.h"
 #include "reports/export/gltf_export.h"
 #include "reports/export/joint_export.h"
 #include "reports/synthetic_experiment.h"
@@ -93,6 +96,33 @@ TEST_F(OtherExports, GltfIsValid) {
   const std::string output(buffer.data(), std::fread(buffer.data(), 1, buffer.size(), pipe.get()));
   EXPECT_THAT(output, HasSubstr("\"numErrors\":0"));
   EXPECT_THAT(output, HasSubstr("\"numWarnings\":0"));
+}
+
+bool HasProgram(const char* name) {
+  return std::system(fmt::format("command -v {} >/dev/null 2>&1", name).c_str()) == 0;
+}
+
+// A viewer of Debian's that knows nothing of ours; it draws on a display that Xvfb makes up.
+TEST_F(OtherExports, GltfIsDrawnByF3d) {
+  for (const char* program : {"f3d", "xvfb-run"}) {
+    if (!HasProgram(program)) GTEST_SKIP() << program << " is not installed";
+  }
+  const fs::path file = folder_ / "run.glb", screenshots = VITRUVIA_SCREENSHOTS;
+  ExportGltf(experiment_, kWavingRun, {}, file);
+  fs::create_directories(screenshots);
+  const fs::path picture = screenshots / "f3d.png";
+  fs::remove(picture);
+  const int status = std::system(
+      fmt::format("timeout 60 xvfb-run -a f3d '{}' --output '{}' --resolution 300,300 --bg-color "
+                  "1,1,1 >/dev/null 2>&1",
+                  file.string(), picture.string())
+          .c_str());
+  EXPECT_EQ(status, 0);
+  const ColorImage drawn = ReadPng(picture);
+  const auto is_body = [](const ColorPixel& p) { return p[0] < 250 || p[1] < 250 || p[2] < 250; };
+  const auto count = std::ranges::count_if(drawn.pixels(), is_body);
+  EXPECT_GT(count, 300 * 300 / 50);
+  EXPECT_LT(count, 300 * 300 / 2);
 }
 
 TEST_F(OtherExports, BvhHoldsEveryJointToAMillimetre) {

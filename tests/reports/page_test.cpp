@@ -45,7 +45,7 @@ class PageTest : public testing::Test {
 
   TemporaryFolder root_;
   ReportedExperiment experiment_ = ReadExperiment(WriteSyntheticExperiment(root_.path()));
-  std::string page_ = MakePage(experiment_, {}, {});
+  std::string page_ = MakePage(experiment_, {}, {}, {});
 };
 
 TEST_F(PageTest, NamesEveryRunAndWhatBecameOfIt) {

@@ -4,7 +4,7 @@
 
 #include "geometry/zbuffer.h"
 #include "reports/drawing/color_maps.h"
-#include "reports/drawing/mesh_view.h"
+#include "reports/pictures/mesh_view.h"
 #include "reports/synthetic_experiment.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_body.h"
@@ -36,7 +36,7 @@ TEST(Pictures, ErrorMapOfTheTruthIsPaleAllOver) {
     EXPECT_EQ(strip.error_max_m, 0.0);
     for (const std::size_t picture : {kErrorPicture, kErrorFromTheSide}) {
       int body_pixels = 0;
-      for (const ColorPixel& pixel : strip.pictures[picture].pixels()) {
+      for (const ColorPixel& pixel : strip.pictures[picture].image.pixels()) {
         if (IsWhite(pixel)) continue;
         ++body_pixels;
         ASSERT_TRUE(IsNoRedderThan(pixel, ErrorColor(0.0)))
@@ -49,7 +49,7 @@ TEST(Pictures, ErrorMapOfTheTruthIsPaleAllOver) {
   const PictureStrip& strip = runs[0].strips[1];
   EXPECT_EQ(strip.frame, kPictureFrame);
   EXPECT_GT(strip.error_max_m, 0.005);
-  const ColorImage& errors = strip.pictures[kErrorPicture];
+  const ColorImage& errors = strip.pictures[kErrorPicture].image;
   int red_above = 0, red_below = 0;
   for (int v = 0; v < kPictureSize; ++v) {
     for (int u = 0; u < kPictureSize; ++u) {
@@ -77,7 +77,7 @@ TEST(Pictures, AreTakenWhereTheRunHasFrames) {
   }
 }
 
-// The z-buffer holds the pinhole camera; VTK must cover the same pixels.
+// The z-buffer holds the pinhole camera; the view must cover the same pixels.
 TEST(MeshView, SeesWhatThePinholeCameraSees) {
   const BodyModel body = TinyBody(2);
   std::vector<Vector3f> posed;

@@ -1,5 +1,6 @@
 #include "reports/pages/report.h"
 
+#include <cmath>
 #include <cstdlib>
 #include <regex>
 #include <string_view>
@@ -13,6 +14,8 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "records/run_record.h"
+#include "reports/pictures/cause_pictures.h"
+#include "reports/pictures/pictures.h"
 #include "reports/synthetic_experiment.h"
 #include "support/count.h"
 #include "support/temporary_folder.h"
@@ -66,7 +69,7 @@ struct PngFacts {
   bool uniform = true;
 };
 
-PngFacts ReadPng(const fs::path& file) {
+PngFacts FactsOfPng(const fs::path& file) {
   vtkNew<vtkPNGReader> reader;
   reader->SetFileName(file.c_str());
   reader->Update();
@@ -90,7 +93,7 @@ void ExpectSelfContained(const std::string& page) {
   EXPECT_EQ(Count(page, "url("), 0u);
   EXPECT_EQ(Count(page, "@import"), 0u);
   EXPECT_LT(page.size(), 8'000'000u);
-  EXPECT_EQ(Count(page, "<img "), 3u * 2u * 7u);  // runs, frames, pictures
+  EXPECT_EQ(Count(page, "<figure><img "), 3u * 2u * 7u);  // runs, frames, pictures
 }
 
 void ExpectFigures(const fs::path& figures) {
@@ -107,9 +110,12 @@ void ExpectFigures(const fs::path& figures) {
     std::smatch size;
     const std::string head = svg.substr(0, 200);
     ASSERT_TRUE(std::regex_search(head, size, view_box));
-    const PngFacts png = ReadPng(fs::path(entry.path()).replace_extension(".png"));
-    EXPECT_EQ(png.width, 2 * std::stoi(size[1])) << entry.path();
-    EXPECT_EQ(png.height, 2 * std::stoi(size[2])) << entry.path();
+    const PngFacts png = FactsOfPng(fs::path(entry.path()).replace_extension(".png"));
+    // A sheet's pictures keep their pixels.
+    const double scale =
+        entry.path().filename().string().starts_with("pictures-") ? kSheetPngScale : 2.0;
+    EXPECT_EQ(png.width, std::ceil(scale * std::stoi(size[1]))) << entry.path();
+    EXPECT_EQ(png.height, std::ceil(scale * std::stoi(size[2]))) << entry.path();
     EXPECT_FALSE(png.uniform) << entry.path();
   }
   // Error, accuracy and time for each of two scenes, speed against error, times of the steps,
@@ -135,6 +141,28 @@ TEST(Report, IsWhole) {
   WriteReport(folder);
   EXPECT_EQ(ReadWholeFile(page_file), page);
   EXPECT_EQ(ReadWholeFile(folder / "figures/speed-against-error.png"), figure);
+}
+
+TEST(Report, SaysWhatHoldsTheErrors) {
+  const TemporaryFolder root;
+  const fs::path folder = WriteSyntheticExperiment(root.path());
+  const std::string page = ReadWholeFile(WriteReport(folder));
+  const std::vector<RunCauses> runs = FindCauses(ReadExperiment(folder));
+  std::size_t events = 0;
+  for (const RunCauses& run : runs) {
+    EXPECT_EQ(run.problem, "");
+    EXPECT_EQ(run.pictures.size(), run.diagnosis.events.size());
+    events += run.diagnosis.events.size();
+  }
+  EXPECT_GT(events, 3u);
+  EXPECT_EQ(Count(page, "alt=\"Truth and estimate in frame"), events);
+  const auto waving = std::ranges::find(runs, kWavingRun, &RunCauses::run_id);
+  ASSERT_NE(waving, runs.end());
+  for (int i = 0; i < kCauseCount; ++i) {
+    const double share = waving->diagnosis.shares[i];
+    if (share == 0.0) continue;
+    EXPECT_THAT(page, HasSubstr(fmt::format(">{:.1f} %</td>", 1e2 * share)));
+  }
 }
 
 TEST(Report, NeedsAnExperiment) {

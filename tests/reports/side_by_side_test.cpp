@@ -47,10 +47,10 @@ TEST_F(SideBySide, AnExactRunLooksLikeTheTruthAndAnotherDoesNot) {
   const auto& waving = sheet.strips[2].pictures;
   const auto& exact = sheet.strips[3].pictures;
   for (const std::size_t frame : {0u, 1u}) {
-    EXPECT_EQ(exact[frame].pixels(), truth[frame].pixels());
+    EXPECT_EQ(exact[frame].image.pixels(), truth[frame].image.pixels());
   }
-  EXPECT_EQ(waving[0].pixels(), truth[0].pixels());  // it begins where it should
-  EXPECT_NE(waving[1].pixels(), truth[1].pixels());
+  EXPECT_EQ(waving[0].image.pixels(), truth[0].image.pixels());  // it begins where it should
+  EXPECT_NE(waving[1].image.pixels(), truth[1].image.pixels());
   EXPECT_EQ(sheet.strips[3].note, "mean L2 error 0.00 mm");
 }
 
@@ -58,7 +58,7 @@ TEST_F(SideBySide, AnExactRunLooksLikeTheTruthAndAnotherDoesNot) {
 TEST_F(SideBySide, AFigureThatFacesTheCameraShowsItsFront) {
   const RunPictures sheet = MakeSideBySide(experiment_).front();
   int front = 0, back = 0;
-  for (const ColorPixel& p : sheet.strips[1].pictures[0].pixels()) {
+  for (const ColorPixel& p : sheet.strips[1].pictures[0].image.pixels()) {
     front += p[2] > p[0] + 20 ? 1 : 0;
     back += p[0] > p[2] + 60 ? 1 : 0;
   }

@@ -115,7 +115,8 @@ TEST_F(ViewerPage, IsLinkedFromReportAndIndex) {
   WriteViewer({Run(kWavingRun)}, {}, Run(kWavingRun) / kViewerPage);
   const std::string report = ReadWholeFile(WriteReport(experiment_));
   EXPECT_THAT(report, HasSubstr(fmt::format("<a href=\"{}/view.html\"", kWavingRun)));
-  EXPECT_EQ(Count(report, "view.html"), 1u) << "other runs have no viewer";
+  EXPECT_THAT(report, HasSubstr("Open chosen runs in lockstep"));
+  EXPECT_EQ(Count(report, "type=\"checkbox\""), 1u) << "other runs have no viewer";
   EXPECT_THAT(ReadWholeFile(WriteIndex(folder_.path())),
               HasSubstr(fmt::format("<a href=\"synthetic/{}/view.html\"", kWavingRun)));
 }
@@ -132,6 +133,7 @@ addEventListener("load", async () => {
   // Of each half of the picture: how many pixels are no background, and a sum that tells pictures
   // apart.
   const look = async () => {
+    await viewer.settled();
     await pause();
     const copy = document.createElement("canvas"), {width, height} = id("stage");
     copy.width = width;
@@ -159,7 +161,7 @@ addEventListener("load", async () => {
   seen.scrubbed_to = viewer.state.frame;
   seen.address = location.hash;
   document.body.dispatchEvent(new KeyboardEvent("keydown", {key: "w", bubbles: true}));
-  await pause();
+  await viewer.settled();
   seen.worst = viewer.state.frame;
   const error = await look();
   input(document.querySelector("[name=color][value=bone]"));
@@ -196,14 +198,48 @@ addEventListener("load", async () => {
 });
 )js";
 
+// What the page shows of its runs and of those beside them.
+constexpr const char* kLookBeside = R"js(
+window.requestAnimationFrame = draw => setTimeout(() => draw(performance.now()), 16);
+addEventListener("load", async () => {
+  for (let i = 0; i < 800 && !(window.viewer && viewer.eventPictures.length === 0); ++i)
+    await new Promise(done => setTimeout(done, 10));
+  viewer.go(7);
+  await viewer.settled();
+  const {page} = viewer;
+  document.title = JSON.stringify({
+    runs: page.runs.map(run => run.id), sequences: page.sequences.length, address: location.hash,
+    shown: viewer.stage.scenes.map(scene => scene.moving.estimate.shown),
+    frames: document.querySelectorAll("iframe").length});
+});
+)js";
+
 class ViewerInBrowser : public ViewerPage {};
+
+TEST_F(ViewerInBrowser, TakesInTheRunsOfOtherPages) {
+  if (!HasBrowser()) GTEST_SKIP() << kBrowser << " is not installed";
+  for (const char* run : {kWavingRun, kExactRun})
+    WriteViewer({Run(run)}, {}, Run(run) / kViewerPage);
+  const std::string other = fmt::format("../{}/{}", kExactRun, kViewerPage);
+  const fs::path screenshots = VITRUVIA_SCREENSHOTS;
+  fs::create_directories(screenshots);
+  const SeenPage seen =
+      OpenInBrowser(Run(kWavingRun) / kViewerPage, kLookBeside,
+                    {.fragment = "with=" + other, .screenshot = screenshots / "lockstep.png"});
+  EXPECT_EQ(seen.console, "");
+  EXPECT_THAT(seen.probe.at("runs"), ElementsAre(kWavingRun, kExactRun));
+  EXPECT_EQ(seen.probe.at("sequences"), 1) << "runs of one sequence share it";
+  EXPECT_THAT(seen.probe.at("shown"), ElementsAre(7, 7));
+  EXPECT_EQ(seen.probe.at("frames"), 0);
+  EXPECT_THAT(seen.probe.at("address").get<std::string>(), HasSubstr("with="));
+}
 
 TEST_F(ViewerInBrowser, IsDrivenByMouseAndKeys) {
   if (!HasBrowser()) GTEST_SKIP() << kBrowser << " is not installed";
   WriteViewer({Run(kWavingRun), Run(kExactRun)}, {}, page_);
   const fs::path screenshots = VITRUVIA_SCREENSHOTS;
   fs::create_directories(screenshots);
-  const SeenPage seen = OpenInBrowser(page_, kDrive, 1280, screenshots / "viewer.png");
+  const SeenPage seen = OpenInBrowser(page_, kDrive, {.screenshot = screenshots / "viewer.png"});
   const nlohmann::json& p = seen.probe;
   EXPECT_EQ(seen.console, "");
   for (const char* picture : {"first", "scrubbed", "over"})
