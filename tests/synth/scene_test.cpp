@@ -530,8 +530,10 @@ TEST(Occluder, APathOutOfOrderAndATimeTurnedOverAreRefused) {
 
 TEST(Carried, MovesWithItsBone) {
   const BodyModel body = TinyBody();
-  CarriedSettings box{
-      .bone = "left_forearm", .size_m = {0.2, 0.4, 0.6}, .offset_m = {0.1, 0.0, 0.0}};
+  CarriedSettings box;
+  box.bone = "left_forearm";
+  box.size_m = {0.2, 0.4, 0.6};
+  box.offset_m = {0.1, 0.0, 0.0};
   MotionSample sample{JointPose::Rest(body.skeleton), true, 0.0};
   sample.pose.local_rotations[static_cast<int>(BoneId::kLeftForearm)] =
       ExpSo3<double>({0.0, 0.0, 0.5 * M_PI});
@@ -578,7 +580,7 @@ TEST(RecordSequence, AFirstFrameThatIsNotThePersonAloneIsTold) {
   scene.room.wall_behind_m = 2.0;
   EXPECT_EQ(warnings(scene, "room"), "");
   scene = SmallScene();
-  scene.carried = {.bone = "left_hand", .size_m = {0.3, 0.3, 0.3}};
+  scene.carried.bone = "left_hand";
   EXPECT_THAT(warnings(scene, "carried"), HasSubstr("the whole person alone"));
 }
 

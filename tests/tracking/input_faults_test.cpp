@@ -24,6 +24,13 @@ DepthFrame Counting(int index) {
   return frame;
 }
 
+DepthFaultSettings Fault(DepthFault kind, int first_frame = 0) {
+  DepthFaultSettings settings;
+  settings.kind = kind;
+  settings.first_frame = first_frame;
+  return settings;
+}
+
 DepthFrame Damaged(const DepthFaultSettings& settings, int index = 3, int seed = 1) {
   DepthFrame frame = Counting(index);
   DamageFrame(settings, {kUnit_m, seed, {}}, frame);
@@ -31,7 +38,8 @@ DepthFrame Damaged(const DepthFaultSettings& settings, int index = 3, int seed =
 }
 
 TEST(DepthFaults, FillTheFramesThatTheyAreAboutAndNoOthers) {
-  const DepthFaultSettings zero{.kind = DepthFault::kZero, .first_frame = 3, .frames = 2};
+  DepthFaultSettings zero = Fault(DepthFault::kZero, 3);
+  zero.frames = 2;
   for (const int whole : {0, 2, 5}) {
     EXPECT_EQ(Damaged(zero, whole).depth.pixels(), Counting(whole).depth.pixels()) << whole;
   }
@@ -41,9 +49,7 @@ TEST(DepthFaults, FillTheFramesThatTheyAreAboutAndNoOthers) {
 }
 
 TEST(DepthFaults, HoldWhatTheyAreNamedAfter) {
-  const auto pixel = [](DepthFault kind) {
-    return Damaged({.kind = kind, .first_frame = 3}).depth(4, 3);
-  };
+  const auto pixel = [](DepthFault kind) { return Damaged(Fault(kind, 3)).depth(4, 3); };
   EXPECT_EQ(pixel(DepthFault::kNone), 19.0f);
   EXPECT_EQ(pixel(DepthFault::kMaximum), 65.535f);
   EXPECT_TRUE(std::isnan(pixel(DepthFault::kNotANumber)));
@@ -52,8 +58,9 @@ TEST(DepthFaults, HoldWhatTheyAreNamedAfter) {
 }
 
 TEST(DepthFaults, SpareMeasuredPixelsInTheMiddle) {
-  const DepthFrame frame =
-      Damaged({.kind = DepthFault::kZero, .first_frame = 3, .pixels_spared = 2});
+  DepthFaultSettings settings = Fault(DepthFault::kZero, 3);
+  settings.pixels_spared = 2;
+  const DepthFrame frame = Damaged(settings);
   for (int v = 0; v < 4; ++v) {
     for (int u = 0; u < 5; ++u) {
       const bool spared = u == 2 && (v == 1 || v == 2);
@@ -65,7 +72,8 @@ TEST(DepthFaults, SpareMeasuredPixelsInTheMiddle) {
 TEST(DepthFaults, HitTheirShareOfThePixelsTheSameOnesForOneSeed) {
   DepthFrame big{0, 0.0, DepthImage(100, 100, 2.0f)};
   DepthFrame again = big, other = big;
-  const DepthFaultSettings settings{.kind = DepthFault::kZero, .share = 0.1};
+  DepthFaultSettings settings = Fault(DepthFault::kZero);
+  settings.share = 0.1;
   DamageFrame(settings, {kUnit_m, 1, {}}, big);
   DamageFrame(settings, {kUnit_m, 1, {}}, again);
   DamageFrame(settings, {kUnit_m, 2, {}}, other);
@@ -76,7 +84,7 @@ TEST(DepthFaults, HitTheirShareOfThePixelsTheSameOnesForOneSeed) {
 }
 
 TEST(DepthFaults, StayInTheirRectangle) {
-  DepthFaultSettings settings{.kind = DepthFault::kZero, .first_frame = 3};
+  DepthFaultSettings settings = Fault(DepthFault::kZero, 3);
   settings.place = FaultPlace::kRegion;
   settings.region_px = {1.0, 2.0, 3.0, 2.0};
   const DepthFrame frame = Damaged(settings);
@@ -91,7 +99,7 @@ TEST(DepthFaults, StayInTheirRectangle) {
 // A wall 2 m away; the bone runs along the image's middle row, a little before the wall.
 TEST(DepthFaults, StayNearTheirBone) {
   const PinholeCamera camera{100, 80, 100.0, 100.0, 49.5, 39.5};
-  DepthFaultSettings settings{.kind = DepthFault::kZero};
+  DepthFaultSettings settings = Fault(DepthFault::kZero);
   settings.place = FaultPlace::kBone;
   settings.bone = "left_forearm";
   settings.bone_radius_m = 0.2;
