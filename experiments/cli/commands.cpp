@@ -16,7 +16,7 @@
 #include "core/progress.h"
 #include "core/write_failure.h"
 #include "experiments/cli/compare_command.h"
-#include "experiments/cli/explain.h"
+#include "experiments/cli/explain_command.h"
 #include "experiments/cli/export_command.h"
 #include "experiments/cli/import_command.h"
 #include "experiments/cli/index_command.h"
@@ -36,6 +36,7 @@
 #include "experiments/cli/subject_command.h"
 #include "experiments/cli/submit_command.h"
 #include "experiments/cli/sufficient_command.h"
+#include "experiments/cli/synth_command.h"
 #include "experiments/cli/track_command.h"
 #include "experiments/cli/verify_command.h"
 #include "experiments/cli/view_command.h"
@@ -78,35 +79,14 @@ void List() {
   PrintConfigs("configs");
 }
 
-void Synthesize(const fs::path& scene_file, const fs::path& output) {
-  SynthesizeSequence(ReadScene(scene_file), output);
-  fmt::print("{}\n", output.string());
-}
-
-struct Arguments {
-  fs::path scene, verified, output;
-  std::string key;
-};
-
-void AddCommands(CLI::App& app, Arguments& a) {
+void AddCommands(CLI::App& app) {
   app.set_version_flag("--version", VersionText());
   app.require_subcommand(0, 1);  // CLI11's own demand for one would hide a misspelt command's name
   app.footer(kExitCodes);
 
   app.add_subcommand("list", "List methods and config files")->callback(List);
 
-  CLI::App* synth =
-      app.add_subcommand("synth", "Synthesise a sequence from a scene, or verify one");
-  synth->add_option("SCENE", a.scene, "scene file");
-  synth->add_option("-o,--output", a.output, "folder of the new sequence");
-  synth->add_option("--verify", a.verified, "folder of a sequence to check, instead of making one");
-  synth->callback([&a] {
-    if (!a.verified.empty()) return VerifyStored(a.verified);
-    if (a.scene.empty() || a.output.empty())
-      throw ConfigError("synth: expected SCENE.json -o DIR, or --verify DIR");
-    Synthesize(a.scene, a.output);
-  });
-
+  AddSynthCommand(app);
   AddVerifyCommand(app);
   AddTrackCommand(app);
   AddRunCommand(app);
@@ -130,11 +110,7 @@ void AddCommands(CLI::App& app, Arguments& a) {
   AddStandInJointsCommand(app);
   AddRigCommand(app);
   AddSubjectCommand(app);
-
-  CLI::App* explain =
-      app.add_subcommand("explain", "Say what a setting or a metric means; without KEY list all");
-  explain->add_option("KEY", a.key, "a setting's key or the beginning of one, or a metric's key");
-  explain->callback([&a] { fmt::print("{}", Explain(a.key)); });
+  AddExplainCommand(app);
 }
 
 }  // namespace
@@ -147,9 +123,8 @@ int RunCommandLine(int argc, const char* const* argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that must not grow is an error that is told
   CLI::App app("Measures how well and how fast a human body can be tracked from one depth camera.",
                "vitruvia");
-  Arguments arguments;
   try {
-    AddCommands(app, arguments);
+    AddCommands(app);
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) {
       throw ConfigError(

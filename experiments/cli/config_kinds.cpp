@@ -48,7 +48,8 @@ const std::vector<ConfigKind>& ConfigKinds() {
          VisitDefaults<ReproductionList>, nullptr},
         {"regression", "what the regression gate measures", VisitDefaults<RegressSettings>,
          nullptr},
-        {"scene", "a body, its motion and a camera", VisitDefaults<SceneSettings>, nullptr},
+        {"scene", "a body, its motion and a camera", VisitDefaults<SceneSettings>, nullptr,
+         FileKind::kSettings, "scene"},
         {"method", "a tracking method and its settings", VisitMethodFile, MethodFileSchema},
         {"scan", "a camera that moves round a person", VisitDefaults<ScanSettings>, nullptr},
         {"learning", "what is learnt from a population", VisitDefaults<LearningSettings>, nullptr},
@@ -78,8 +79,8 @@ const std::vector<ConfigKind>& ConfigKinds() {
                                       "joints found in each frame of a sequence"),
         StoredKind<RegressionFile>("regression_report", "regression.json: the gate's findings")};
     for (const MethodInfo& method : Methods()) {
-      list.push_back(
-          {method.name, "settings of the method " + method.name, method.visit_settings, nullptr});
+      list.push_back({method.name, "settings of the method " + method.name, method.visit_settings,
+                      nullptr, FileKind::kSettings, "method.settings"});
     }
     return list;
   }();

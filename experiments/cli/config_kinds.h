@@ -15,6 +15,8 @@ struct ConfigKind {
   void (*visit)(Fields&);
   Json (*schema)();  // null: that of `visit`
   FileKind file_kind = FileKind::kSettings;
+  // Where a sweep finds the settings: "scene" or "method.settings"; "" where it does not.
+  std::string sweep_prefix{};
 };
 const std::vector<ConfigKind>& ConfigKinds();
 

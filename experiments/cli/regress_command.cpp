@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -17,6 +18,7 @@
 #include "experiments/cli/regress_config.h"
 #include "experiments/plan/experiment_config.h"
 #include "experiments/studies/experiment_kinds.h"
+#include "synth/bodies/body_source.h"
 
 namespace vitruvia {
 namespace fs = std::filesystem;
@@ -62,18 +64,75 @@ void CheckArguments(const RegressArguments& a) {
         "can go with it");
   }
   if (!a.baseline_program.empty() && access(a.baseline_program.c_str(), X_OK) != 0) {
-    throw ConfigError(fmt::format("regress: --baseline-program {}: {}; expected an executable file",
-                                  a.baseline_program.string(), std::strerror(errno)));
+    const bool is_file = fs::is_regular_file(a.baseline_program);
+    throw ConfigError(
+        fmt::format("regress: --baseline-program {0}: {1}; {2}{0}", a.baseline_program.string(),
+                    std::strerror(errno),
+                    is_file ? "make it executable: chmod +x " : "expected a program, got "));
   }
 }
 
-// What is misspelt or not there is told before hours are spent on measuring.
-void CheckExperiments(const std::vector<GatedExperiment>& experiments, const RegressArguments& a) {
+// Everything that the experiments name is read and found.
+std::vector<Experiment> Planned(const std::vector<GatedExperiment>& experiments,
+                                const RegressArguments& a) {
   if (experiments.empty())
     throw ConfigError(fmt::format("regress: {}: no experiment whose name contains \"{}\"",
                                   a.config.string(), a.only));
+  std::vector<Experiment> planned;
   for (const GatedExperiment& gated : experiments)
-    PlanAnyExperiment(gated.experiment, {"sequences", "learned"});
+    planned.push_back(PlanAnyExperiment(gated.experiment, {"sequences", "learned"}));
+  return planned;
+}
+
+// The people of all scenes can be made: their data are where the scenes say.
+void CheckBodies(const std::vector<Experiment>& experiments) {
+  std::set<std::string> checked;
+  for (const Experiment& experiment : experiments) {
+    for (const PlannedRun& run : experiment.runs) {
+      if (!run.resolved.contains("scene") || !run.resolved.at("scene").contains("body")) continue;
+      const Json& body = run.resolved.at("scene").at("body");
+      if (!checked.insert(body.dump()).second) continue;
+      MakeControlBody(ReadSettings<BodySettings>(body, ResolvedOrigin("scene.body")));
+    }
+  }
+}
+
+std::string NameInTheGate(const PlannedRun& planned) {
+  GatedRun run;
+  run.experiment = planned.experiment;
+  run.variant = planned.variant;
+  run.scene = planned.scene;
+  run.method = planned.method;
+  run.seed = planned.seed;
+  return run.name();
+}
+
+// Runs of the baseline that would not be measured.
+void CheckNames(const std::vector<Experiment>& experiments, const GateBaseline& baseline,
+                const fs::path& file) {
+  std::set<std::string> names;
+  for (const Experiment& experiment : experiments) {
+    for (const PlannedRun& run : experiment.runs) names.insert(NameInTheGate(run));
+  }
+  std::vector<std::string> missing;
+  for (const GatedRun& run : baseline.runs) {
+    if (!names.contains(run.name())) missing.push_back(run.name());
+  }
+  if (missing.empty()) return;
+  throw Error(ExitCode::kNothingMeasured,
+              fmt::format("{}: holds runs that the experiments do not have: {}; nothing was "
+                          "measured. Mend the experiments, or renew the baseline: --update "
+                          "--reason TEXT",
+                          file.string(), fmt::join(missing, ", ")));
+}
+
+// What is misspelt or not there is told before hours are spent on measuring.
+void CheckExperiments(const std::vector<GatedExperiment>& selected, const GateBaseline& baseline,
+                      const GatePlaces& places, const RegressArguments& a) {
+  const std::vector<Experiment> planned = Planned(selected, a);
+  if (a.stored) return;
+  CheckNames(planned, baseline, places.baseline);
+  CheckBodies(planned);
 }
 
 MeasuredRuns Measured(const RegressArguments& a, const RegressSettings& settings,
@@ -129,7 +188,7 @@ void Regress(const RegressArguments& a) {
   const std::string commit = GetBuildInfo().commit;
   const GateBaseline baseline = a.update ? GateBaseline() : SelectedBaseline(places, a.only);
   std::vector<HistoryEntry> history = ReadHistory(places.history);
-  CheckExperiments(Selected(settings, a.only), a);
+  CheckExperiments(Selected(settings, a.only), baseline, places, a);
   MakeFolder(places.output);
   const MeasuredRuns measured = Measured(a, settings, places);
   if (a.update) return Renew(a, places, measured);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "body/skeleton.h"
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -55,12 +56,34 @@ BodyModel ObtainSubject(const RunPlan& run, const SequenceReader& sequence,
   return sequence.subject();
 }
 
+// True joints in the order of the bones; DataError if the sequence does not hold all of them.
+std::vector<Vector3d> JointsOfBones(const SequenceReader& sequence, int frame) {
+  const std::vector<std::string>& names = sequence.info().joints;
+  std::vector<Vector3d> joints;
+  for (const BoneInfo& bone : Bones()) {
+    const auto found = std::find(names.begin(), names.end(), bone.joint);
+    const auto at = static_cast<std::size_t>(found - names.begin());
+    if (found == names.end() || !sequence.true_joints(frame).Knows(at)) {
+      throw DataError(
+          fmt::format("{}: faults.depth.place \"bone\": the sequence has no true joint "
+                      "{} in frame {}",
+                      sequence.folder().string(), bone.joint, frame));
+    }
+    joints.push_back(sequence.true_joints(frame).positions[at]);
+  }
+  return joints;
+}
+
 void Track(const RunPlan& run, const SequenceReader& sequence, const WorkFolders& work,
            const fs::path& estimate_folder) {
   BodyModel subject = ObtainSubject(run, sequence, work);
   DamageSubject(run.faults.subject, subject);
+  const DepthFaultSettings& faults = run.faults.depth;
+  FaultContext context{sequence.info().depth_unit_m, run.seed, sequence.info().camera};
   const auto damage = [&](DepthFrame& frame) {
-    DamageFrame(run.faults.depth, sequence.info().depth_unit_m, run.seed, frame);
+    if (faults.place == FaultPlace::kBone && faults.Damages(frame.index))
+      context.bone = BoneSegments(faults.bone, JointsOfBones(sequence, frame.index));
+    DamageFrame(faults, context, frame);
   };
   TrackSequence(sequence, run.method, subject, damage, estimate_folder);
 }

@@ -88,7 +88,11 @@ std::vector<HistoryEntry> ReadHistory(const fs::path& file) {
 
 void WriteHistory(const fs::path& file, const std::vector<HistoryEntry>& history) {
   MakeParentFolder(file);
-  WriteStored(file, HistoryFile{history});
+  HistoryFile stored{history};
+  for (HistoryEntry& entry : stored.entries) {
+    for (GatedRun& run : entry.runs) run.settings.clear();
+  }
+  WriteStored(file, stored);
 }
 
 }  // namespace vitruvia

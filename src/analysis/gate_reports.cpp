@@ -43,8 +43,13 @@ PrintedFinding PrintedNumbers(const GateFinding& finding) {
           unit};
 }
 
-std::string BlameText(const Blame& blame) {
-  if (blame.first_bad.empty()) return "";
+std::string BlameText(const GateFinding& finding) {
+  const Blame& blame = finding.blame;
+  if (blame.first_bad.empty()) {
+    const bool may_be_the_settings =
+        finding.kind == NumberKind::kAccuracy && finding.change == Change::kRegressed;
+    return may_be_the_settings ? "none: the settings differ" : "";
+  }
   if (blame.last_good == blame.first_bad)
     return fmt::format("within {} (good and bad there)", blame.first_bad);
   return fmt::format("{} (good at {})", blame.first_bad,
@@ -66,8 +71,7 @@ std::string RegressionLines(const Judgement& judgement, const std::string& run, 
     const PrintedFinding numbers = PrintedNumbers(*f);
     lines += fmt::format("{}{}: was {}, is {}, limit {}{}", lines.empty() ? "" : "\n", f->metric,
                          numbers.was, numbers.is, numbers.limit, numbers.unit);
-    if (const std::string blame = BlameText(f->blame); !blame.empty())
-      lines += "; first bad " + blame;
+    if (const std::string blame = BlameText(*f); !blame.empty()) lines += "; first bad " + blame;
   }
   return lines;
 }
@@ -81,9 +85,9 @@ std::string FindingTable(const std::string& title,
       title);
   for (const GateFinding* f : findings) {
     const PrintedFinding numbers = PrintedNumbers(*f);
-    text += fmt::format("| `{}` | {} | {}{} | {} | {} | {} | {} |\n", f->run, f->metric,
-                        numbers.was, numbers.unit, numbers.is, ChangeInPercent(*f), numbers.limit,
-                        BlameText(f->blame));
+    text +=
+        fmt::format("| `{}` | {} | {}{} | {} | {} | {} | {} |\n", f->run, f->metric, numbers.was,
+                    numbers.unit, numbers.is, ChangeInPercent(*f), numbers.limit, BlameText(*f));
   }
   return text + "\n";
 }
@@ -92,6 +96,14 @@ std::string NameList(const std::string& title, const std::vector<std::string>& n
   if (names.empty()) return "";
   std::string text = fmt::format("## {}\n\n", title);
   for (const std::string& name : names) text += fmt::format("- `{}`\n", name);
+  return text + "\n";
+}
+
+std::string SettingsList(const Judgement& judgement) {
+  if (judgement.changed_settings.empty()) return "";
+  std::string text = "## Settings that differ from the baseline's\n\n";
+  for (const auto& [run, changed] : judgement.changed_settings)
+    text += fmt::format("- `{}`: {}\n", run, fmt::join(changed, "; "));
   return text + "\n";
 }
 
@@ -187,6 +199,9 @@ void RegressionFile::Describe(Fields& f) {
   f.Section("baseline", baseline, {.meaning = "baseline that was compared with"});
   f.List("findings", findings, {.meaning = "every number that was compared with the baseline"});
   f.Map("failures", failures, {.meaning = "run → why it failed"});
+  f.Map("changed_settings", changed_settings,
+        {.meaning = "run → settings that differ from the baseline's: key: was → is",
+         .optional = true});
   f.Texts("not_in_baseline", not_in_baseline,
           {.meaning = "runs and numbers that the baseline does not hold"});
   f.Texts("not_measured", not_measured,
@@ -205,9 +220,13 @@ RegressionFile MakeRegressionFile(const GateOccasion& occasion, const Judgement&
                       {occasion.baseline.commit, occasion.baseline.date, occasion.baseline.cpu},
                       {},
                       judgement.failures,
+                      {},
                       judgement.unknown,
                       judgement.unmeasured,
                       occasion.measured.runs};
+  for (const auto& [run, changed] : judgement.changed_settings)
+    file.changed_settings[run] = fmt::format("{}", fmt::join(changed, "; "));
+  for (GatedRun& run : file.runs) run.settings.clear();
   for (const GateFinding& finding : judgement.findings) {
     file.findings.push_back({finding});
     if (finding.change != Change::kRegressed) file.findings.back().blame = {};
@@ -266,6 +285,7 @@ std::string ToMarkdown(const GateOccasion& occasion, const Judgement& judgement)
   text += FindingTable("Speed regressed", judgement.Regressions(NumberKind::kSpeed));
   text += FindingTable("Improved beyond tolerance", judgement.OfChange(Change::kImproved));
   text += NameList("Not in the baseline", judgement.unknown);
+  text += SettingsList(judgement);
   return text + fmt::format("{} numbers are within tolerance.\n",
                             judgement.OfChange(Change::kWithin).size());
 }

@@ -1,7 +1,9 @@
 // What the regression gate found, for programs and for people.
 #pragma once
 
+#include <map>
 #include <string>
+#include <vector>
 
 #include "analysis/judgement.h"
 
@@ -34,6 +36,7 @@ struct RegressionFile {
   BaselineEntry baseline;
   std::vector<FindingEntry> findings;
   std::map<std::string, std::string> failures;
+  std::map<std::string, std::string> changed_settings;
   std::vector<std::string> not_in_baseline, not_measured;
   std::vector<GatedRun> runs;
 

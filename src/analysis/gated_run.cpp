@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/build_cache.h"
 #include "core/error.h"
 #include "math/statistics.h"
 #include "records/metric_value.h"
@@ -27,6 +28,17 @@ std::map<std::string, std::vector<double>> TimesOfAll(std::span<const RunRecord>
   }
   std::erase_if(times_ms, [&](const auto& timed) { return timed.second.size() != repeats.size(); });
   return times_ms;
+}
+
+// Dotted keys of all values that are no objects.
+void Flatten(const nlohmann::json& json, const std::string& key,
+             std::map<std::string, std::string>& settings) {
+  if (!json.is_object()) {
+    settings[key] = json.dump();
+    return;
+  }
+  for (const auto& item : json.items())
+    Flatten(item.value(), key.empty() ? item.key() : key + "." + item.key(), settings);
 }
 
 bool IsSame(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
@@ -56,7 +68,28 @@ GatedRun MakeGatedRun(const std::string& experiment, std::span<const RunRecord> 
     if (!is_steady) gated.unsteady.push_back(metric.key);
   }
   gated.times_ms = TimesOfAll(repeats);
+  if (!first.config.is_object()) return gated;
+  gated.config_hash = SettingsHash(first.config);
+  Flatten(first.config, "", gated.settings);
   return gated;
+}
+
+std::vector<std::string> ChangedSettings(const GatedRun& was, const GatedRun& is) {
+  if (was.config_hash == is.config_hash) return {};
+  if (was.settings.empty()) return {"the baseline does not hold its settings; renew it"};
+  constexpr const char* kNoSetting = "none";
+  const auto value_in = [](const GatedRun& run, const std::string& key) {
+    const auto found = run.settings.find(key);
+    return found == run.settings.end() ? std::string(kNoSetting) : found->second;
+  };
+  std::map<std::string, std::string> all = was.settings;
+  all.insert(is.settings.begin(), is.settings.end());
+  std::vector<std::string> changed;
+  for (const auto& [key, value] : all) {
+    const std::string before = value_in(was, key), now = value_in(is, key);
+    if (before != now) changed.push_back(fmt::format("{}: {} → {}", key, before, now));
+  }
+  return changed;
 }
 
 const GatedRun* FindRun(const std::vector<GatedRun>& runs, const std::string& name) {
@@ -80,6 +113,11 @@ void GatedRun::Describe(Fields& f) {
                   "of the same sitting only",
        .unit = "ms",
        .optional = true});
+  f.Text("config_hash", config_hash,
+         {.meaning = "hash of the run's resolved settings", .optional = true});
+  f.Map("settings", settings,
+        {.meaning = "dotted key of a setting → its value as JSON; in baselines only",
+         .optional = true});
 }
 
 }  // namespace vitruvia

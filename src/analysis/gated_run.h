@@ -35,6 +35,10 @@ struct GatedRun {
   // By name of what was timed (kWholeTimes or a step): its median time per frame in each repeat,
   // ms. Compares with times of the same sitting on the same machine only.
   std::map<std::string, std::vector<double>> times_ms;
+  // Of the resolved config: a hash, and by dotted key each setting as JSON. "" and none in files of
+  // older programs; only a baseline stores the settings themselves.
+  std::string config_hash;
+  std::map<std::string, std::string> settings;
 
   void Describe(Fields& fields);
   std::string name() const;  // "experiment: variant.scene.method.s1"
@@ -43,6 +47,10 @@ struct GatedRun {
 // Of the records of the same run, one for each repeat, at least one. What was not timed in every
 // repeat has no times.
 GatedRun MakeGatedRun(const std::string& experiment, std::span<const RunRecord> repeats);
+
+// "fit.pair_cutoff_m: 0.08 → 0.1" of each setting that differs, in the order of the keys; one
+// sentence where a side does not know its settings.
+std::vector<std::string> ChangedSettings(const GatedRun& was, const GatedRun& is);
 
 // The run of that name; nullptr if there is none.
 const GatedRun* FindRun(const std::vector<GatedRun>& runs, const std::string& name);

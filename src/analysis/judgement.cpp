@@ -35,23 +35,22 @@ Change ChangeOf(double is, const Limits& limits) {
   return Change::kWithin;
 }
 
-// The value of a finding on an earlier occasion; NaN if it was not measured then.
-double ValueThen(const HistoryEntry& entry, const GateFinding& finding) {
-  for (const GatedRun& run : entry.runs) {
-    if (run.name() != finding.run) continue;
-    const auto found = run.accuracy.find(finding.metric);
-    return found == run.accuracy.end() ? NAN : found->second;
-  }
-  return NAN;
+// The value of a metric of the run on an earlier occasion; NaN if it was not measured then, or with
+// other settings.
+double ValueThen(const HistoryEntry& entry, const GatedRun& is, const std::string& metric) {
+  const GatedRun* run = FindRun(entry.runs, is.name());
+  if (run == nullptr || run->config_hash != is.config_hash) return NAN;
+  const auto found = run->accuracy.find(metric);
+  return found == run->accuracy.end() ? NAN : found->second;
 }
 
 // Back from the newest entry as long as the number was bad there too.
-Blame BlameFor(const GateFinding& finding, const Limits& limits,
+Blame BlameFor(const GatedRun& is, const std::string& metric, const Limits& limits,
                const std::vector<HistoryEntry>& history, const std::string& commit,
                const std::string& baseline_commit) {
   Blame blame{baseline_commit, commit};
   for (auto entry = history.rbegin(); entry != history.rend(); ++entry) {
-    const double value = ValueThen(*entry, finding);
+    const double value = ValueThen(*entry, is, metric);
     if (std::isnan(value)) continue;
     if (ChangeOf(value, limits) != Change::kRegressed) {
       blame.last_good = entry->commit;
@@ -101,7 +100,10 @@ class Judging {
       : baseline_(baseline), tolerances_(tolerances), history_(history), commit_(commit) {}
 
   void CompareAccuracy(const GatedRun& was, const GatedRun& is) {
-    for (const auto& [metric, value] : was.accuracy) CompareMetric(is, metric, value);
+    const std::vector<std::string> changed = ChangedSettings(was, is);
+    if (!changed.empty()) judgement_.changed_settings[is.name()] = changed;
+    for (const auto& [metric, value] : was.accuracy)
+      CompareMetric(is, metric, value, changed.empty());
     if (!is.unsteady.empty()) {
       judgement_.failures[is.name()] =
           fmt::format("not the same in all repeats: {}", fmt::join(is.unsteady, ", "));
@@ -129,7 +131,8 @@ class Judging {
   Judgement& judgement() { return judgement_; }
 
  private:
-  void CompareMetric(const GatedRun& is, const std::string& metric, double was) {
+  void CompareMetric(const GatedRun& is, const std::string& metric, double was,
+                     bool has_same_settings) {
     const auto found = is.accuracy.find(metric);
     if (found == is.accuracy.end()) {
       judgement_.unmeasured.push_back(fmt::format("{}: {}", is.name(), metric));
@@ -143,8 +146,8 @@ class Judging {
     finding.is = found->second;
     finding.limit = limits.worst;
     finding.change = ChangeOf(finding.is, limits);
-    if (finding.change == Change::kRegressed)
-      finding.blame = BlameFor(finding, limits, history_, commit_, baseline_.commit);
+    if (finding.change == Change::kRegressed && has_same_settings)
+      finding.blame = BlameFor(is, metric, limits, history_, commit_, baseline_.commit);
     judgement_.findings.push_back(std::move(finding));
   }
 

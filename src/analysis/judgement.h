@@ -29,9 +29,11 @@ const char* Name(NumberKind kind);
 enum class Change { kWithin, kImproved, kRegressed };
 const char* Name(Change change);
 
-// Where in the history a regression of accuracy came in. Times of other occasions say nothing.
+// Where in the history a regression of accuracy came in. Times of other occasions say nothing, nor
+// do occasions and baselines whose settings were others.
 struct Blame {
-  // Commits. The last good one is the baseline's where the history says nothing.
+  // Commits. The last good one is the baseline's where the history says nothing. Both "" where the
+  // settings differ from the baseline's: the commit need not be to blame.
   std::string last_good, first_bad;
 };
 
@@ -54,7 +56,9 @@ struct Judgement {
   std::map<std::string, std::string> failures;  // run → what went wrong; unsteady numbers too
   std::vector<std::string> unknown;             // measured, but not in the baseline
   std::vector<std::string> unmeasured;          // runs or numbers of the baseline that are no more
-  std::string speed_not_judged;                 // "" or why no time was compared
+  // Run → what differs between the baseline's settings and its own (ChangedSettings).
+  std::map<std::string, std::vector<std::string>> changed_settings;
+  std::string speed_not_judged;  // "" or why no time was compared
 
   std::vector<const GateFinding*> OfChange(Change change) const;
   std::vector<const GateFinding*> Regressions(NumberKind kind) const;

@@ -39,14 +39,22 @@ std::string Titled(const Metric& metric) {
   return metric.unit.empty() ? metric.label : fmt::format("{} ({})", metric.label, metric.unit);
 }
 
+std::string UnitText(const Metric& metric) {
+  if (metric.unit.empty() || metric.scale == 1.0) return metric.unit;
+  return fmt::format("{} in tables; stored value × {:g}", metric.unit, metric.scale);
+}
+
 std::string Explanation(const Metric& metric) {
   std::string text = fmt::format("{}\n  {}\n  {}\n", metric.key, metric.label, metric.definition);
-  if (!metric.unit.empty()) {
-    text += fmt::format(
-        "  unit:    {}{}\n", metric.unit,
-        metric.scale == 1.0 ? "" : fmt::format(" in tables; stored value × {:g}", metric.scale));
-  }
-  return text + fmt::format("  better:  {}\n", Name(metric.better));
+  const auto add = [&](const char* name, const std::string& value) {
+    if (!value.empty()) text += fmt::format("  {:<9}{}\n", fmt::format("{}:", name), value);
+  };
+  add("formula", metric.formula);
+  add("over", metric.averaged_over);
+  add("counts", metric.hidden_and_lost);
+  add("unit", UnitText(metric));
+  add("better", Name(metric.better));
+  return text;
 }
 
 }  // namespace vitruvia

@@ -18,7 +18,9 @@ std::string SignedNumber(double number, int decimals);
 std::string PrintedCell(const nlohmann::json& cell, const Metric& metric);
 // "label (unit)"
 std::string Titled(const Metric& metric);
-// Label, definition, unit and direction on a few lines.
+// Unit, and the factor between stored and printed numbers; "" where there is no unit.
+std::string UnitText(const Metric& metric);
+// Label, definition, formula, what is averaged, what counts, unit and direction on a few lines.
 std::string Explanation(const Metric& metric);
 
 }  // namespace vitruvia

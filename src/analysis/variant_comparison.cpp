@@ -78,16 +78,18 @@ std::vector<Metric> MetricsToCompare(const std::vector<RunPair>& pairs,
   return metrics;
 }
 
+std::string FullName(const RunRecord& run) { return run.method + "/" + run.variant; }
+
 // Differences of pairs by scene. Repeats of a run that agree to the last bit, as all but times do,
-// are one pair.
+// are one pair; runs of other methods or variants are none of its repeats.
 class DifferencesByScene {
  public:
   void Add(const RunRecord& run, double difference) {
-    const auto key = std::pair(run.scene, run.seed);
+    const std::string name = fmt::format("{}\n{}\n{}", FullName(run), run.scene, run.seed);
     const auto found =
-        std::find_if(runs_.begin(), runs_.end(), [&](const auto& r) { return r.key == key; });
+        std::find_if(runs_.begin(), runs_.end(), [&](const auto& r) { return r.name == name; });
     if (found == runs_.end()) {
-      runs_.push_back({key, {difference}});
+      runs_.push_back({name, run.scene, {difference}});
     } else {
       found->repeats.push_back(difference);
     }
@@ -97,7 +99,7 @@ class DifferencesByScene {
     Groups groups;
     std::map<std::string, std::size_t> of_scene;
     for (const Run& run : runs_) {
-      const auto [place, is_new] = of_scene.emplace(run.key.first, groups.size());
+      const auto [place, is_new] = of_scene.emplace(run.scene, groups.size());
       if (is_new) groups.emplace_back();
       std::vector<double>& group = groups[place->second];
       const auto& repeats = run.repeats;
@@ -109,7 +111,7 @@ class DifferencesByScene {
 
  private:
   struct Run {
-    std::pair<std::string, int> key;
+    std::string name, scene;
     std::vector<double> repeats;
   };
   std::vector<Run> runs_;

@@ -2,8 +2,8 @@
 //
 // Tables, plots, comparisons, the regression gate, `vitruvia explain` and the expectations of
 // experiment files take keys, labels, units, directions and selections from here. To add a metric,
-// add one entry to catalogue_entries.cpp and compute the number where its kind is scored
-// (src/scoring, or the study that measures it).
+// add one entry to the list of its kind (catalogue_*.cpp) and compute the number where its kind is
+// scored (src/scoring, or the study that measures it).
 #pragma once
 
 #include <string>
@@ -37,12 +37,25 @@ struct Metric {
   Better better = Better::kNeither;
   std::vector<Place> shown_in{};
   std::string definition{};  // full sentences
+  std::string formula{};     // in the symbols of FormulaSymbols; "" where there is nothing to add
+  std::string averaged_over{};    // what, and in which order; "" where nothing is averaged
+  std::string hidden_and_lost{};  // full sentences: how hidden parts and lost frames count
 
   // A member of a family (see MetricFamilies): the family's key, and which member it is.
   std::string family{}, member{};
 
   bool IsShownIn(Place place) const;
 };
+
+// What the formulas of all metrics mean by their letters, one sentence each.
+const std::vector<std::string>& FormulaSymbols();
+
+// Metrics of one kind, for pages and lists.
+struct MetricGroup {
+  std::string title;
+  std::vector<Metric> metrics;
+};
+const std::vector<MetricGroup>& MetricGroups();  // all but the families
 
 // All metrics but the families, in the order in which tables show them.
 const std::vector<Metric>& MetricCatalogue();

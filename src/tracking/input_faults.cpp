@@ -27,6 +27,33 @@ float FaultyDepth(DepthFault kind, float depth_m, double depth_unit_m) {
   return depth_m;
 }
 
+bool IsNear(const Vector3d& point, const BoneSegment& segment, double radius_m) {
+  const Vector3d along = segment[1] - segment[0];
+  const double length2 = along.squaredNorm();
+  const double share =
+      length2 > 0.0 ? std::clamp((point - segment[0]).dot(along) / length2, 0.0, 1.0) : 0.0;
+  return (point - segment[0] - share * along).norm() <= radius_m;
+}
+
+bool IsInPlace(const DepthFaultSettings& settings, const FaultContext& context, int u, int v,
+               float depth_m) {
+  switch (settings.place) {
+    case FaultPlace::kImage:
+      return true;
+    case FaultPlace::kRegion:
+      return u >= settings.region_px[0] && v >= settings.region_px[1] &&
+             u <= settings.region_px[2] && v <= settings.region_px[3];
+    case FaultPlace::kBone: {
+      if (!(depth_m > 0.0f)) return false;
+      const Vector3d point = context.camera.Unproject<double>(u, v, depth_m);
+      return std::any_of(context.bone.begin(), context.bone.end(), [&](const BoneSegment& segment) {
+        return IsNear(point, segment, settings.bone_radius_m);
+      });
+    }
+  }
+  return false;
+}
+
 struct SparedPixel {
   int squared_px;  // from the image's middle, in half pixels
   int u, v;
@@ -66,13 +93,45 @@ void DepthFaultSettings::Describe(Fields& f) {
             {.meaning = "first damaged frame", .unit = "frames", .min = 0, .max = 1e6});
   f.Integer("frames", frames,
             {.meaning = "how many frames are damaged", .unit = "frames", .min = 1, .max = 1e6});
+  f.Choice(
+      "place", place,
+      {{"image", FaultPlace::kImage}, {"region", FaultPlace::kRegion}, {"bone", FaultPlace::kBone}},
+      {.meaning = "which part of an image is damaged: all of it, a rectangle, or what is seen "
+                  "near a bone"});
+  if (f.Applies(place == FaultPlace::kRegion)) {
+    f.Numbers("region_px", region_px,
+              {.meaning = "left, top, right and bottom of the damaged rectangle, both ends in it "
+                          "(region only)",
+               .unit = "px",
+               .min = 0.0,
+               .max = 1e5});
+  }
+  if (f.Applies(place == FaultPlace::kBone)) {
+    f.Text("bone", bone,
+           {.meaning = "bone, such as left_forearm, near whose true place pixels are damaged (bone "
+                       "only)"});
+    f.Number("bone_radius_m", bone_radius_m,
+             {.meaning = "distance from the bone within which pixels are damaged (bone only)",
+              .unit = "m",
+              .min = 0.001,
+              .max = 2.0});
+  }
   f.Number("share", share,
-           {.meaning = "share of a damaged frame's pixels, chosen by chance", .min = 0, .max = 1});
+           {.meaning = "share of the damaged part's pixels, chosen by chance", .min = 0, .max = 1});
   f.Integer("pixels_spared", pixels_spared,
             {.meaning = "measured pixels that stay whole, nearest to the image's middle",
              .unit = "px",
              .min = 0,
              .max = 1e8});
+}
+
+std::string DepthFaultSettings::Problem() const {
+  if (place == FaultPlace::kRegion && (region_px[0] > region_px[2] || region_px[1] > region_px[3]))
+    return "region_px: expected left, top, right and bottom, left and top first";
+  if (place != FaultPlace::kBone || FindBone(bone) >= 0) return "";
+  std::vector<std::string_view> names;
+  for (const BoneInfo& info : Bones()) names.push_back(info.name);
+  return fmt::format("bone \"{}\": expected one of {}", bone, fmt::join(names, ", "));
 }
 
 void SubjectFaultSettings::Describe(Fields& f) {
@@ -108,15 +167,32 @@ void InputFaultSettings::Describe(Fields& f) {
   f.Section("subject", subject, {.meaning = "what is wrong with the template"});
 }
 
-void DamageFrame(const DepthFaultSettings& settings, double depth_unit_m, int seed,
+std::vector<BoneSegment> BoneSegments(const std::string& bone,
+                                      const std::vector<Vector3d>& joints) {
+  const int index = FindBone(bone);
+  Require(index >= 0 && joints.size() == Bones().size(), "BoneSegments: bone {} of {} joints", bone,
+          joints.size());
+  const Vector3d& from = joints[static_cast<std::size_t>(index)];
+  std::vector<BoneSegment> segments;
+  for (std::size_t child = 0; child < Bones().size(); ++child) {
+    if (Bones()[child].parent == index) segments.push_back({from, joints[child]});
+  }
+  if (segments.empty()) segments.push_back({from, from});
+  return segments;
+}
+
+void DamageFrame(const DepthFaultSettings& settings, const FaultContext& context,
                  DepthFrame& frame) {
-  const int since = frame.index - settings.first_frame;
-  if (settings.kind == DepthFault::kNone || since < 0 || since >= settings.frames) return;
+  if (!settings.Damages(frame.index)) return;
   const std::vector<SparedPixel> spared = SparedPixels(frame.depth, settings.pixels_spared);
-  RandomStream random(static_cast<std::uint64_t>(seed), fmt::format("faults/{}", frame.index));
-  for (float& depth_m : frame.depth.pixels()) {
-    if (random.Uniform() < settings.share) {
-      depth_m = FaultyDepth(settings.kind, depth_m, depth_unit_m);
+  RandomStream random(static_cast<std::uint64_t>(context.seed),
+                      fmt::format("faults/{}", frame.index));
+  for (int v = 0; v < frame.depth.height(); ++v) {
+    for (int u = 0; u < frame.depth.width(); ++u) {
+      float& depth_m = frame.depth(u, v);
+      if (random.Uniform() < settings.share && IsInPlace(settings, context, u, v, depth_m)) {
+        depth_m = FaultyDepth(settings.kind, depth_m, context.depth_unit_m);
+      }
     }
   }
   for (const SparedPixel& pixel : spared) frame.depth(pixel.u, pixel.v) = pixel.depth_m;

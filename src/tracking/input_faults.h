@@ -3,7 +3,9 @@
 // makes (a template with broken triangles).
 #pragma once
 
+#include <array>
 #include <string>
+#include <vector>
 
 #include "body/body_model.h"
 #include "config/settings.h"
@@ -21,14 +23,25 @@ enum class DepthFault {
   kNegative,  // the depth behind the camera
 };
 
+// Which part of an image is damaged.
+enum class FaultPlace { kImage, kRegion, kBone };
+
 struct DepthFaultSettings {
   DepthFault kind = DepthFault::kNone;
   int first_frame = 0;
   int frames = 1;
-  double share = 1.0;     // of a damaged frame's pixels
-  int pixels_spared = 0;  // measured ones, nearest to the image's middle
+  FaultPlace place = FaultPlace::kImage;
+  std::array<double, 4> region_px{0.0, 0.0, 0.0, 0.0};  // left, top, right, bottom; both ends in it
+  std::string bone;
+  double bone_radius_m = 0.15;  // round the bone
+  double share = 1.0;           // of the damaged part's pixels
+  int pixels_spared = 0;        // measured ones, nearest to the image's middle
 
+  bool Damages(int frame) const {
+    return kind != DepthFault::kNone && frame >= first_frame && frame < first_frame + frames;
+  }
   void Describe(Fields& fields);
+  std::string Problem() const;
 };
 
 struct SubjectFaultSettings {
@@ -48,8 +61,23 @@ struct InputFaultSettings {
   void Describe(Fields& fields);
 };
 
+// From the true joint of a bone to that of a bone that hangs on it, camera frame, metres.
+using BoneSegment = std::array<Vector3d, 2>;
+
+// What a fault depends on beside its settings.
+struct FaultContext {
+  double depth_unit_m = 0.001;
+  int seed = 1;
+  PinholeCamera camera;
+  std::vector<BoneSegment> bone{};  // of a fault at a bone, in this frame
+};
+
+// Of the named bone, given the true joints in the order of Bones(). A bone that carries no other
+// has one segment, of no length.
+std::vector<BoneSegment> BoneSegments(const std::string& bone, const std::vector<Vector3d>& joints);
+
 // The frame as the tracker gets it. The same seed damages the same pixels.
-void DamageFrame(const DepthFaultSettings& settings, double depth_unit_m, int seed,
+void DamageFrame(const DepthFaultSettings& settings, const FaultContext& context,
                  DepthFrame& frame);
 
 // The subject as the tracker gets it.

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 
-#include "math/rigid.h"
 #include "synth/scene/scene.h"
 
 namespace vitruvia {
@@ -13,14 +12,5 @@ namespace vitruvia {
 // noted in the provenance.
 void RecordSequence(const SceneSettings& settings, const BodyModel& truth, const BodyModel& subject,
                     const Motion& motion, const std::filesystem::path& folder);
-
-// The body's surface and joints in the camera frame, and the motion that brought them there.
-struct TruePose {
-  std::vector<Vector3f> vertices;
-  std::vector<Vector3<double>> joints;
-  BoneTransforms camera_from_rest;
-};
-TruePose Pose(const BodyModel& body, const MotionSample& sample, Skinning skinning,
-              const Rigidd& camera_from_subject);
 
 }  // namespace vitruvia

@@ -4,44 +4,26 @@
 #include <numbers>
 
 #include "math/rigid.h"
+#include "synth/scene/box.h"
 
 namespace vitruvia {
 namespace {
 
 constexpr double kExtent_m = 15.0;  // of floor and walls to all sides: beyond what a camera sees
 
-// Collects quads given in the subject frame.
-class Quads {
- public:
-  explicit Quads(const Rigidd& camera_from_subject) : camera_from_subject_(camera_from_subject) {}
-
-  void Add(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
-    const auto first = static_cast<int>(mesh_.vertices.size());
-    for (const Vector3d& corner : {a, b, c, d})
-      mesh_.vertices.push_back((camera_from_subject_ * corner).cast<float>());
-    mesh_.triangles.push_back({first, first + 1, first + 2});
-    mesh_.triangles.push_back({first, first + 2, first + 3});
-  }
-
-  TriangleMesh Mesh() const { return mesh_; }
-
- private:
-  Rigidd camera_from_subject_;
-  TriangleMesh mesh_;
-};
-
-void AddBox(const FurnitureSettings& box, Quads& quads) {
+void AddFurniture(const FurnitureSettings& box, const Rigidd& camera_from_subject,
+                  TriangleMesh& mesh) {
   const double turn = box.turn_deg * std::numbers::pi / 180.0;
-  const auto corner = [&](int i) -> Vector3d {
-    const double x = ((i & 1) != 0 ? 0.5 : -0.5) * box.size_m[0];
-    const double y = box.base_m + ((i & 2) != 0 ? box.size_m[1] : 0.0);
-    const double z = ((i & 4) != 0 ? 0.5 : -0.5) * box.size_m[2];
-    return {box.position_m[0] + std::cos(turn) * x + std::sin(turn) * z, y,
-            box.position_m[1] - std::sin(turn) * x + std::cos(turn) * z};
-  };
-  for (const auto& face : {std::array{0, 1, 3, 2}, std::array{5, 4, 6, 7}, std::array{4, 0, 2, 6},
-                           std::array{1, 5, 7, 3}, std::array{2, 3, 7, 6}, std::array{4, 5, 1, 0}})
-    quads.Add(corner(face[0]), corner(face[1]), corner(face[2]), corner(face[3]));
+  AddBox(
+      [&](const Vector3d& sides) -> Vector3d {
+        const double x = 0.5 * sides.x() * box.size_m[0];
+        const double y = box.base_m + (sides.y() > 0.0 ? box.size_m[1] : 0.0);
+        const double z = 0.5 * sides.z() * box.size_m[2];
+        return camera_from_subject *
+               Vector3d(box.position_m[0] + std::cos(turn) * x + std::sin(turn) * z, y,
+                        box.position_m[1] - std::sin(turn) * x + std::cos(turn) * z);
+      },
+      mesh);
 }
 
 }  // namespace
@@ -96,18 +78,22 @@ void RoomSettings::Describe(Fields& f) {
 }
 
 TriangleMesh RoomMesh(const RoomSettings& s, const Rigidd& camera_from_subject) {
-  Quads quads(camera_from_subject);
+  TriangleMesh mesh;
+  const auto add = [&](const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
+    AddQuad(camera_from_subject * a, camera_from_subject * b, camera_from_subject * c,
+            camera_from_subject * d, mesh);
+  };
   const double far = kExtent_m, top = s.wall_height_m;
   const double left = s.wall_left_m, right = -s.wall_right_m, back = -s.wall_behind_m;
-  if (s.floor) quads.Add({-far, 0, -far}, {-far, 0, far}, {far, 0, far}, {far, 0, -far});
+  if (s.floor) add({-far, 0, -far}, {-far, 0, far}, {far, 0, far}, {far, 0, -far});
   if (s.wall_behind_m > 0.0)
-    quads.Add({-far, 0, back}, {far, 0, back}, {far, top, back}, {-far, top, back});
+    add({-far, 0, back}, {far, 0, back}, {far, top, back}, {-far, top, back});
   if (s.wall_left_m > 0.0)
-    quads.Add({left, 0, -far}, {left, 0, far}, {left, top, far}, {left, top, -far});
+    add({left, 0, -far}, {left, 0, far}, {left, top, far}, {left, top, -far});
   if (s.wall_right_m > 0.0)
-    quads.Add({right, 0, far}, {right, 0, -far}, {right, top, -far}, {right, top, far});
-  for (const FurnitureSettings& box : s.furniture) AddBox(box, quads);
-  return quads.Mesh();
+    add({right, 0, far}, {right, 0, -far}, {right, top, -far}, {right, top, far});
+  for (const FurnitureSettings& box : s.furniture) AddFurniture(box, camera_from_subject, mesh);
+  return mesh;
 }
 
 }  // namespace vitruvia

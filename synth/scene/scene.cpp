@@ -79,6 +79,7 @@ void SceneSettings::Describe(Fields& f) {
   f.List("views", views,
          {.meaning = "other cameras that record the same, for scores; no tracker sees them"});
   f.Section("occluder", occluder, {.meaning = "what walks past between camera and subject"});
+  f.Section("carried", carried, {.meaning = "what the subject carries"});
   f.Section("room", room, {.meaning = "what stands still round the subject"});
   f.Section("sensor", sensor, {.meaning = "what the camera makes of true depth"});
   f.Integer("frames", frames, {.meaning = "length of the sequence", .min = 1, .max = 100000});

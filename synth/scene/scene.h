@@ -10,6 +10,7 @@
 #include "synth/bodies/body_source.h"
 #include "synth/cloth/garment.h"
 #include "synth/motions/motion.h"
+#include "synth/scene/carried.h"
 #include "synth/scene/occluder.h"
 #include "synth/scene/room.h"
 #include "synth/sensor/sensor.h"
@@ -56,6 +57,7 @@ struct SceneSettings {
   ViewSettings view;
   std::vector<OtherViewSettings> views;  // of other cameras, which no tracker sees
   OccluderSettings occluder;             // none by default
+  CarriedSettings carried;               // nothing by default
   RoomSettings room;                     // none by default; with one the true mask is written
   SensorSettings sensor;
   int frames = 300;

@@ -9,6 +9,7 @@
 
 namespace vitruvia {
 namespace {
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -216,6 +217,62 @@ TEST(Judge, NamesTheFirstCommitThatCouldBeToBlame) {
                              Entry("ddd", 0.03), Entry("eee", 0.02)});
   EXPECT_EQ(later.last_good, "ccc");
   EXPECT_EQ(later.first_bad, "ddd");
+}
+
+GatedRun WithSettings(double error_m, const Json& config) {
+  RunRecord record = Record(error_m, 6.0);
+  record.config = config;
+  return Gated(record);
+}
+
+TEST(Judge, BlamesNoCommitWhereTheSettingsDifferAndSaysWhich) {
+  const Json before = {{"method", {{"settings", {{"fit", {{"cutoff_m", 0.08}}}}}}}, {"old", 1}};
+  const Json now = {{"method", {{"settings", {{"fit", {{"cutoff_m", 0.1}}}}}}}, {"old", 1}};
+  const GatedRun was = WithSettings(0.01, before), is = WithSettings(0.02, now);
+  EXPECT_THAT(ChangedSettings(was, is), ElementsAre("method.settings.fit.cutoff_m: 0.08 → 0.1"));
+  EXPECT_THAT(ChangedSettings(was, was), IsEmpty());
+  const Judgement judgement = JudgeOf(was, is);
+  ASSERT_EQ(judgement.Regressions(NumberKind::kAccuracy).size(), 1u);
+  EXPECT_EQ(judgement.Regressions(NumberKind::kAccuracy)[0]->blame.first_bad, "");
+  EXPECT_THAT(judgement.changed_settings.at(kWalk), testing::SizeIs(1));
+  const GateOccasion occasion{"Nightly", "2026-01-03",    "now0000",  "cpu",
+                              {},        BaselineOf(was), {{is}, {}}, {}};
+  EXPECT_THAT(
+      ToMarkdown(occasion, judgement),
+      AllOf(HasSubstr("none: the settings differ"),
+            HasSubstr("## Settings that differ from the baseline's\n\n- `" + std::string(kWalk) +
+                      "`: method.settings.fit.cutoff_m: 0.08 → 0.1\n")));
+  // A baseline of an older program does not know its settings.
+  GatedRun old = was;
+  old.settings.clear();
+  old.config_hash = "";
+  EXPECT_THAT(ChangedSettings(old, is), ElementsAre(HasSubstr("does not hold its settings")));
+}
+
+TEST(Judge, LooksForTheCommitInOccasionsOfTheSameSettingsOnly) {
+  const Json config = {{"cutoff_m", 0.08}}, other = {{"cutoff_m", 0.1}};
+  const auto entry = [](const char* commit, const GatedRun& run) -> HistoryEntry {
+    return {"2026-01-02", commit, "cpu", 0, {run}};
+  };
+  const std::vector<HistoryEntry> history = {entry("aaa", WithSettings(0.01, config)),
+                                             entry("bbb", WithSettings(0.02, other)),
+                                             entry("ccc", WithSettings(0.02, config))};
+  const Judgement judgement =
+      JudgeOf(WithSettings(0.01, config), WithSettings(0.02, config), history);
+  const Blame blame = judgement.Regressions(NumberKind::kAccuracy).at(0)->blame;
+  EXPECT_EQ(blame.last_good, "aaa");
+  EXPECT_EQ(blame.first_bad, "ccc");
+}
+
+TEST(GateFiles, OnlyTheBaselineHoldsSettings) {
+  const TemporaryFolder folder;
+  const GatedRun run = WithSettings(0.01, {{"cutoff_m", 0.08}});
+  WriteBaseline(folder / "base.json", BaselineOf(run));
+  WriteHistory(folder / "history.json", {{"2026-01-02", "aaa", "cpu", 0, {run}}});
+  EXPECT_EQ(ReadBaseline(folder / "base.json").runs.at(0).settings, run.settings);
+  const GatedRun then = ReadHistory(folder / "history.json").at(0).runs.at(0);
+  EXPECT_THAT(then.settings, IsEmpty());
+  EXPECT_EQ(then.config_hash, run.config_hash);
 }
 
 TEST(GateFiles, AreReadAsWritten) {

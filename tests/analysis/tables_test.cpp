@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "analysis/metrics_page.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "support/temporary_folder.h"
@@ -27,12 +28,28 @@ TEST(PrintedMetric, IsInTheUnitsOfTheReader) {
 TEST(PrintedMetric, IsExplainedWithUnitAndDirection) {
   EXPECT_EQ(Explanation(FindMetric("frame_ms_p95")),
             "frame_ms_p95\n  time per frame, 95th percentile\n  95th percentile over the frames of "
-            "frame_ms.\n  unit:    ms\n  better:  lower is better\n");
+            "frame_ms.\n  formula: p95_f t_f\n  over:    the frames\n  counts:  Lost and failed "
+            "frames count like all others.\n  unit:    ms\n  better:  lower is better\n");
   EXPECT_THAT(Explanation(FindMetric("joints_within_10cm")),
               testing::HasSubstr("  unit:    % in tables; stored value × 100\n"
                                  "  better:  higher is better\n"));
   EXPECT_THAT(Explanation(FindMetric("frames")),
-              testing::EndsWith("tracked frames.\n  better:  neither is better\n"));
+              testing::EndsWith("tracked frames.\n  formula: F\n  counts:  Lost and failed frames "
+                                "count like all others.\n  better:  neither is better\n"));
+}
+
+TEST(MetricsPage, IsTheOneInDocs) {
+  EXPECT_EQ(ReadWholeFile(std::filesystem::path(VITRUVIA_SOURCE_DIR) / "docs/metrics.md"),
+            MetricsPage())
+      << "vitruvia explain --metrics > docs/metrics.md renews it";
+}
+
+TEST(MetricsPage, HasEveryMetric) {
+  const std::string page = MetricsPage();
+  for (const auto& metrics : {MetricCatalogue(), MetricFamilies()}) {
+    for (const Metric& metric : metrics)
+      EXPECT_THAT(page, testing::HasSubstr(fmt::format("\n### `{}`\n", metric.key)));
+  }
 }
 
 ReportedExperiment WithOneRun(double paper, double at_most, nlohmann::json ours) {

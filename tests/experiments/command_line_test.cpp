@@ -3,6 +3,7 @@
 
 #include <fstream>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/files.h"
@@ -13,6 +14,9 @@ namespace vitruvia {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
 
 class CommandLine : public testing::Test {
  protected:
@@ -245,6 +249,119 @@ TEST_F(CommandLine, ExplainSaysUnitRangeDefaultAndSource) {
        {"keeps each bone's local rotation", "default: 5 (paper; paper A, eq. 7)", "range:"}) {
     EXPECT_NE(outcome.out.find(word), std::string::npos) << outcome.out;
   }
+}
+
+TEST_F(CommandLine, ExplainSaysWhatToPasteIntoASweep) {
+  EXPECT_THAT(Call({"explain", "realtime_scape.fit.pair_cutoff_m"}).out,
+              HasSubstr("\n  sweep:   method.settings.fit.pair_cutoff_m\n"));
+  EXPECT_THAT(Call({"explain", "scene.view.camera.fx"}).out,
+              HasSubstr("\n  sweep:   scene.view.camera.fx\n"));
+  for (const char* key : {"scene.seed", "scene.view.position_m", "experiment.title"})
+    EXPECT_THAT(Call({"explain", key}).out, Not(HasSubstr("sweep:"))) << key;
+}
+
+TEST_F(CommandLine, APathThatExplainNamesCanBeSwept) {
+  Json experiment = Experiment();
+  experiment["sweep"] = {
+      {"axes", {{{"setting", "method.settings.fit.pair_cutoff_m"}, {"values", {0.08}}}}}};
+  Write(folder_ / "swept.json", experiment);
+  EXPECT_EQ(Call({"run", File("swept.json"), "--dry-run"}).code, 0);
+}
+
+TEST_F(CommandLine, ExplainSearchesTheTextOfSettingsAndMetrics) {
+  const CallResult found = Call({"explain", "--search", "DISTANCE", "pairs"});
+  EXPECT_EQ(found.code, 0);
+  EXPECT_THAT(found.out, HasSubstr("realtime_scape.fit.pair_cutoff_m\n"));
+  EXPECT_THAT(Call({"explain", "--search", "hidden", "joints"}).out,
+              HasSubstr("joint_error_mean_hidden_m\n"));
+  ExpectRefusal({"explain", "--search", "wobble"}, ExitCode::kBadConfiguration,
+                {"no setting or metric has all of the words wobble"});
+  ExpectRefusal({"explain", "wobble"}, ExitCode::kBadConfiguration,
+                {"no setting or metric \"wobble\"", "--search looks for words"});
+}
+
+TEST_F(CommandLine, ExplainSaysHowAMetricIsComputed) {
+  const std::string text = Call({"explain", "l2_mean_hidden_m"}).out;
+  for (const char* line : {"  formula: mean_f mean_{v ∉ V_f}", "  over:    the hidden vertices",
+                           "  counts:  Visible parts are left out"})
+    EXPECT_THAT(text, HasSubstr(line));
+  EXPECT_THAT(Call({"explain", "--metrics"}).out, testing::StartsWith("# Metrics\n"));
+}
+
+TEST_F(CommandLine, SynthPreviewsASceneWithoutMakingIt) {
+  const CallResult preview =
+      Call({"synth", File("scene.json"), "--preview", File("look/scene.png")});
+  ASSERT_EQ(preview.code, 0) << preview.error;
+  EXPECT_THAT(ReadWholeFile(folder_ / "look/scene.png"), testing::StartsWith("\x89PNG"));
+  ExpectRefusal({"synth", File("scene.json"), "--preview", File("scene.pgm")},
+                ExitCode::kBadConfiguration, {"scene.pgm: expected a name that ends in .png"});
+  ExpectRefusal({"synth", File("scene.json")}, ExitCode::kBadConfiguration,
+                {"SCENE.json --preview FILE.png"});
+}
+
+// Two variants; the second's settings change afterwards.
+TEST_F(CommandLine, StatusNamesOldRunsAndPruneRemovesThem) {
+  Json experiment = Experiment();
+  const auto write = [&](double weight) {
+    experiment["variants"] = {
+        {{"name", "all"}},
+        {{"name", "weak"}, {"method", {{"settings", {{"axis_weight", weight}}}}}}};
+    Write(folder_ / "changing.json", experiment);
+  };
+  write(0.5);
+  ASSERT_EQ(Call({"run", File("changing.json"), "-o", File("out")}).code, 0);
+  write(0.25);
+  ASSERT_EQ(Call({"run", File("changing.json"), "-o", File("out")}).code, 0);
+  const auto folders = [&] {
+    int count = 0;
+    for (const auto& entry : fs::directory_iterator(folder_ / "out"))
+      count += fs::exists(entry.path() / "run.json") ? 1 : 0;
+    return count;
+  };
+  ASSERT_EQ(folders(), 3);
+  const CallResult told = Call({"status", File("changing.json"), "-o", File("out")});
+  EXPECT_THAT(told.out, HasSubstr("\nold      weak."));
+  EXPECT_THAT(told.out, HasSubstr("1 old runs, of settings that the experiment no longer has"));
+  EXPECT_EQ(folders(), 3);
+  const CallResult pruned = Call({"status", File("out"), "--prune"});  // by its folder, too
+  EXPECT_THAT(pruned.out, HasSubstr("\nremoved  weak."));
+  EXPECT_EQ(folders(), 2);
+  EXPECT_THAT(Call({"status", File("out")}).out,
+              AllOf(HasSubstr("2 runs, 2 done"), Not(HasSubstr("\nold "))));
+}
+
+TEST_F(CommandLine, RunAgainCarriesOutTheChosenRunsThatAreDone) {
+  Json experiment = Experiment();
+  experiment["seeds"] = {1, 2};
+  Write(folder_ / "twice.json", experiment);
+  ASSERT_EQ(Call({"run", File("twice.json"), "-o", File("out")}).code, 0);
+  const Json before = ResultOf(folder_ / "out");
+  const CallResult again =
+      Call({"run", File("twice.json"), "-o", File("out"), "--again", "--only", "*.s2.*"});
+  EXPECT_THAT(again.out, HasSubstr("1 runs done, 0 kept, 0 failed"));
+  EXPECT_EQ(ResultOf(folder_ / "out"), before);
+  EXPECT_THAT(Call({"run", File("twice.json"), "-o", File("out")}).out,
+              HasSubstr("0 runs done, 2 kept, 0 failed"));
+}
+
+// report, compare, status and rescore take both.
+TEST_F(CommandLine, AnExperimentIsNamedByItsFileOrItsFolder) {
+  Json experiment = Experiment();
+  experiment["variants"] = {{{"name", "a"}}, {{"name", "b"}}};
+  experiment["variants"][1]["method"]["settings"]["axis_weight"] = 0.5;
+  Write(folder_ / "both.json", experiment);
+  ASSERT_EQ(Call({"run", File("both.json"), "-o", File("out")}).code, 0);
+  for (const std::string command : {"report", "compare", "status", "rescore"}) {
+    const CallResult by_folder = Call({command, File("out")});
+    EXPECT_EQ(by_folder.code, 0) << command << by_folder.error;
+    const bool has_output = command != "compare";  // whose -o is its table's file
+    if (!has_output) continue;
+    const CallResult by_file = Call({command, File("both.json"), "-o", File("out")});
+    EXPECT_EQ(by_file.code, 0) << command << by_file.error;
+    EXPECT_EQ(by_file.out, by_folder.out) << command;
+  }
+  ExpectRefusal({"report", File("experiment.json"), "-o", File("nowhere")},
+                ExitCode::kBadConfiguration, {"nothing has been run yet"});
 }
 
 }  // namespace

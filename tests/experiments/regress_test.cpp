@@ -230,5 +230,37 @@ TEST_F(Regress, StoredNumbersThatAreNotThereAreBadData) {
   EXPECT_EQ(Call({"--stored"}).code, static_cast<int>(ExitCode::kBadData));
 }
 
+// Before anything is measured.
+TEST_F(Regress, RunsThatTheBaselineHoldsAndTheExperimentLacksAreTold) {
+  TakeBaseline();
+  Json experiment = ReadJsonFile(files_ / "experiment.json");
+  experiment["seeds"] = {7};
+  files_.Write("experiment.json", experiment);
+  fs::remove_all(files_ / "out");
+  const CallResult outcome = Call({});
+  EXPECT_EQ(outcome.code, static_cast<int>(ExitCode::kNothingMeasured)) << outcome.out;
+  EXPECT_THAT(outcome.error, HasSubstr("holds runs that the experiments do not have"));
+  EXPECT_THAT(outcome.error, HasSubstr(".s1"));
+  EXPECT_FALSE(fs::exists(files_ / "out"));
+}
+
+TEST_F(Regress, DataThatAreNotThereAreTold) {
+  Json scene = ReadJsonFile(files_ / "scene.json");
+  scene["body"] = {{"source", "makehuman"}, {"makehuman_folder", "nowhere"}};
+  files_.Write("scene.json", scene);
+  const CallResult outcome = Call({"--update", "--reason", "first"});
+  EXPECT_EQ(outcome.code, static_cast<int>(ExitCode::kBadConfiguration)) << outcome.error;
+  EXPECT_THAT(outcome.error, HasSubstr("nowhere"));
+  EXPECT_FALSE(fs::exists(files_ / "out"));
+}
+
+TEST_F(Regress, ABaselineProgramThatMayNotBeExecutedIsTold) {
+  WriteWholeFile(files_ / "program", "#!/bin/sh\n");
+  TakeBaseline();
+  const CallResult outcome = Call({"--baseline-program", files_.File("program")});
+  EXPECT_EQ(outcome.code, static_cast<int>(ExitCode::kBadConfiguration));
+  EXPECT_THAT(outcome.error, HasSubstr("make it executable: chmod +x " + files_.File("program")));
+}
+
 }  // namespace
 }  // namespace vitruvia

@@ -1,4 +1,6 @@
 // Metrics computed again from what runs left behind.
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -53,6 +55,54 @@ TEST_F(Rescore, RepairsARecordWhoseNumbersAreWrong) {
   const CallResult call = CallVitruvia({"rescore", out_.string(), "--only", "default.*"});
   EXPECT_THAT(call.out, HasSubstr("1 runs scored again, 1 changed"));
   EXPECT_EQ(Record(), before);
+}
+
+// Summaries that were not in the experiment when it was carried out, against the stored series.
+TEST_F(Rescore, ComputesSummariesOfTheExperimentFile) {
+  const std::vector<double> errors = Record().at("frames").at("joint_error_mean_m");
+  std::vector<double> sorted = errors;
+  std::sort(sorted.begin(), sorted.end());
+  const double level = 0.5 * (sorted[3] + sorted[4]);  // 8 of 12 are above
+  Json experiment = ReadJsonFile(files_ / "experiment.json");
+  experiment["summaries"] = {
+      {{"name", "median"}, {"series", "joint_error_mean_m"}, {"statistic", "median"}},
+      {{"name", "worst"}, {"series", "joint_error_mean_m"}, {"statistic", "maximum"}},
+      {{"name", "p90"},
+       {"series", "joint_error_mean_m"},
+       {"statistic", "quantile"},
+       {"quantile", 0.9}},
+      {{"name", "above"},
+       {"series", "joint_error_mean_m"},
+       {"statistic", "share_above"},
+       {"level", level}},
+      {{"name", "elbow"},
+       {"series", "joint_error_mean_m"},
+       {"joints", {"left_elbow"}},
+       {"statistic", "mean"}}};
+  experiment["table_columns"] = {"summary[above]"};
+  files_.Write("experiment.json", experiment);
+  const CallResult call =
+      CallVitruvia({"rescore", files_.File("experiment.json"), "-o", out_.string()});
+  ASSERT_EQ(call.code, 0) << call.error;
+  const Json row = Record().at("summary");
+  EXPECT_DOUBLE_EQ(row.at("summary[median]"), 0.5 * (sorted[5] + sorted[6]));
+  EXPECT_DOUBLE_EQ(row.at("summary[worst]"), sorted.back());
+  EXPECT_NEAR(row.at("summary[p90]").get<double>(), sorted[9] + 0.9 * (sorted[10] - sorted[9]),
+              1e-15);
+  EXPECT_DOUBLE_EQ(row.at("summary[above]"), 8.0 / 12.0);
+  EXPECT_NEAR(row.at("summary[elbow]").get<double>(),
+              Record().at("joint_error_mean_m").at("left_elbow").get<double>(), 1e-12);
+  ASSERT_EQ(CallVitruvia({"report", out_.string()}).code, 0);
+  EXPECT_THAT(ReadWholeFile(out_ / "table.tex"), HasSubstr("above"));
+
+  // What an experiment asks for in vain is told.
+  experiment["summaries"] = {{{"name", "x"},
+                              {"series", "joint_error_mean_m"},
+                              {"joints", {"left_elbo"}},
+                              {"statistic", "mean"}}};
+  files_.Write("experiment.json", experiment);
+  ExpectRefusal({"rescore", files_.File("experiment.json"), "-o", out_.string()},
+                ExitCode::kBadConfiguration, {"did you mean \"left_elbow\"?"});
 }
 
 TEST_F(Rescore, WhatIsMissingOrAnotherIsTold) {

@@ -22,8 +22,8 @@ std::string TableOf() {
 TEST(StoredDataPage, ListsEveryKeyAsTheProgramDescribesIt) {
   const std::string page =
       ReadWholeFile(std::filesystem::path(VITRUVIA_SOURCE_DIR) / "docs/stored_data.md");
-  for (const std::string& table :
-       {TableOf<RunRecord>(), TableOf<EstimateFile>(), TableOf<ExperimentSummary>()}) {
+  for (const std::string& table : {TableOf<RunRecord>(), TableOf<EstimateFile>(),
+                                   TableOf<ExperimentSummary>(), TableOf<ExperimentRecord>()}) {
     EXPECT_NE(page.find(table), std::string::npos) << "expected in the page:\n" << table;
   }
 }

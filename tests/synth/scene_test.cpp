@@ -19,7 +19,9 @@
 #include "support/temporary_folder.h"
 #include "support/tiny_body.h"
 #include "synth/render/depth_renderer.h"
+#include "synth/scene/preview.h"
 #include "synth/scene/recording.h"
+#include "synth/scene/stage.h"
 #include "verification/verification.h"
 
 namespace vitruvia {
@@ -483,6 +485,128 @@ TEST(OtherViews, PointsLieOnTheTrueSurface) {
       ASSERT_LT((cloud.points[k] - on).norm(), 0.002f);
     }
   }
+}
+
+TEST(Occluder, IsThereFromItsTimeToItsTimeAndFollowsItsPath) {
+  OccluderSettings post;
+  post.radius_m = 0.1;
+  post.motion = OccluderMotion::kPath;
+  post.path = {{1.0, {0.0, 1.0}}, {2.0, {1.0, 1.0}}, {4.0, {1.0, 3.0}}};
+  const auto at = [&](double time_s) { return PositionAt(post, time_s); };
+  EXPECT_EQ(at(0.0), (std::array{0.0, 1.0}));
+  EXPECT_EQ(at(1.25), (std::array{0.25, 1.0}));
+  EXPECT_EQ(at(3.0), (std::array{1.0, 2.0}));
+  EXPECT_EQ(at(9.0), (std::array{1.0, 3.0}));
+  post.presence = {1.0, 2.0};
+  const auto triangles = [&](double time_s) {
+    TriangleMesh mesh;
+    AddOccluder(post, time_s, Rigidd{}, mesh);
+    return mesh.triangles.size();
+  };
+  EXPECT_EQ(triangles(0.99), 0u);
+  EXPECT_GT(triangles(1.0), 0u);
+  EXPECT_EQ(triangles(2.0), 0u);
+}
+
+TEST(Occluder, APathOutOfOrderAndATimeTurnedOverAreRefused) {
+  const auto problem = [](const Json& occluder) -> std::string {
+    try {
+      ReadSettings<OccluderSettings>(occluder, {"s.json", "occluder"});
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const Json late = {{"time_s", 2.0}, {"position_m", {0, 1}}},
+             early = {{"time_s", 1.0}, {"position_m", {0, 1}}};
+  EXPECT_EQ(problem({{"radius_m", 0.1}, {"motion", "path"}, {"path", {early, late}}}), "");
+  EXPECT_THAT(problem({{"radius_m", 0.1}, {"motion", "path"}, {"path", {late, early}}}),
+              HasSubstr("path[1].time_s: expected more than 2"));
+  EXPECT_THAT(problem({{"radius_m", 0.1}, {"motion", "path"}}),
+              HasSubstr("at least one way point"));
+  EXPECT_THAT(problem({{"radius_m", 0.1}, {"from_s", 3.0}, {"to_s", 1.0}}),
+              HasSubstr("from_s 3 and to_s 1"));
+}
+
+TEST(Carried, MovesWithItsBone) {
+  const BodyModel body = TinyBody();
+  CarriedSettings box;
+  box.bone = "left_forearm";
+  box.size_m = {0.2, 0.4, 0.6};
+  box.offset_m = {0.1, 0.0, 0.0};
+  MotionSample sample{JointPose::Rest(body.skeleton), true, 0.0};
+  sample.pose.local_rotations[static_cast<int>(BoneId::kLeftForearm)] =
+      ExpSo3<double>({0.0, 0.0, 0.5 * M_PI});
+  const TruePose posed = Pose(body, sample, Skinning::kLinear, Rigidd{});
+  TriangleMesh mesh;
+  AddCarried(box, 0.0, body.skeleton, posed.camera_from_rest, mesh);
+  ASSERT_EQ(mesh.triangles.size(), 12u);
+  Vector3d middle = Vector3d::Zero();
+  Vector3d least = Vector3d::Constant(9.0), most = Vector3d::Constant(-9.0);
+  for (const Vector3f& corner : mesh.vertices) {
+    const Vector3d p = corner.cast<double>();
+    middle += p / static_cast<double>(mesh.vertices.size());
+    least = least.cwiseMin(p);
+    most = most.cwiseMax(p);
+  }
+  // A quarter turn about z carries the offset along x to y, and the box's width to its height.
+  const auto forearm = static_cast<std::size_t>(BoneId::kLeftForearm);
+  EXPECT_LT((middle - posed.joints[forearm] - Vector3d(0.0, 0.1, 0.0)).norm(), 1e-5);
+  EXPECT_LT((most - least - Vector3d(0.4, 0.2, 0.6)).norm(), 1e-5);
+}
+
+TEST(RecordSequence, AFirstFrameThatIsNotThePersonAloneIsTold) {
+  const TemporaryFolder temporary;
+  const auto warnings = [&](const SceneSettings& scene, const char* name) {
+    testing::internal::CaptureStderr();
+    Record(scene, temporary / name);
+    return testing::internal::GetCapturedStderr();
+  };
+  SceneSettings scene = SmallScene();
+  scene.occluder.radius_m = 0.1;
+  scene.occluder.start_m = {-1.15, 0.0};  // beside the person
+  scene.occluder.velocity_m_s = {0.0, 0.0};
+  EXPECT_THAT(warnings(scene, "beside"),
+              AllOf(HasSubstr("the first frame does not show the whole person alone"),
+                    HasSubstr("a tracker takes them for the person"),
+                    testing::Not(HasSubstr("are hidden"))));
+  scene.occluder.presence.from_s = 0.5;
+  EXPECT_THAT(warnings(scene, "later"), testing::Not(HasSubstr("warning")));
+  scene.occluder.presence.from_s = 0.0;
+  scene.occluder.start_m = {0.0, 0.8};  // before the person
+  EXPECT_THAT(warnings(scene, "before"), HasSubstr("% of the person are hidden"));
+  // A room comes with a mask of the person.
+  scene.occluder.start_m = {-1.15, 0.0};
+  scene.room.wall_behind_m = 2.0;
+  EXPECT_THAT(warnings(scene, "room"), testing::Not(HasSubstr("warning")));
+  scene = SmallScene();
+  scene.carried.bone = "left_hand";
+  EXPECT_THAT(warnings(scene, "carried"), HasSubstr("the whole person alone"));
+}
+
+TEST(Preview, ShowsFramesFromTheFirstToTheLastAsTheyWillBeRecorded) {
+  const TemporaryFolder temporary;
+  SceneSettings scene;
+  scene.motion.source = MotionSource::kKeyframes;
+  scene.motion.file = std::filesystem::path(VITRUVIA_SOURCE_DIR) / "configs/motions/arm_wave.json";
+  scene.view.camera = {80, 60, 71.0, 71.0, 39.5, 29.5};
+  scene.truth.refinement.subdivisions = 0;
+  scene.frames = 7;
+  const ScenePreview preview = PreviewScene(scene, 3);
+  SynthesizeSequence(scene, temporary / "whole");
+  const SequenceReader whole(temporary / "whole");
+  ASSERT_EQ(preview.frames.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const PreviewFrame& frame = preview.frames[i];
+    EXPECT_EQ(frame.frame, static_cast<int>(3 * i));
+    const DepthImage stored = whole.ReadDepth(frame.frame);
+    for (std::size_t p = 0; p < stored.pixels().size(); ++p) {
+      ASSERT_NEAR(frame.depth.pixels()[p], stored.pixels()[p], 0.00051);  // stored in millimetres
+      ASSERT_EQ(frame.body.pixels()[p] > 0, stored.pixels()[p] > 0.0f);
+    }
+  }
+  EXPECT_TRUE(preview.warnings.empty());
+  EXPECT_EQ(PreviewScene(scene, 100).frames.size(), 7u);
 }
 
 }  // namespace

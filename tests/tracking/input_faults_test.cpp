@@ -24,14 +24,22 @@ DepthFrame Counting(int index) {
   return frame;
 }
 
+DepthFaultSettings Fault(DepthFault kind, int first_frame = 0) {
+  DepthFaultSettings settings;
+  settings.kind = kind;
+  settings.first_frame = first_frame;
+  return settings;
+}
+
 DepthFrame Damaged(const DepthFaultSettings& settings, int index = 3, int seed = 1) {
   DepthFrame frame = Counting(index);
-  DamageFrame(settings, kUnit_m, seed, frame);
+  DamageFrame(settings, {kUnit_m, seed, {}}, frame);
   return frame;
 }
 
 TEST(DepthFaults, FillTheFramesThatTheyAreAboutAndNoOthers) {
-  const DepthFaultSettings zero{.kind = DepthFault::kZero, .first_frame = 3, .frames = 2};
+  DepthFaultSettings zero = Fault(DepthFault::kZero, 3);
+  zero.frames = 2;
   for (const int whole : {0, 2, 5}) {
     EXPECT_EQ(Damaged(zero, whole).depth.pixels(), Counting(whole).depth.pixels()) << whole;
   }
@@ -41,9 +49,7 @@ TEST(DepthFaults, FillTheFramesThatTheyAreAboutAndNoOthers) {
 }
 
 TEST(DepthFaults, HoldWhatTheyAreNamedAfter) {
-  const auto pixel = [](DepthFault kind) {
-    return Damaged({.kind = kind, .first_frame = 3}).depth(4, 3);
-  };
+  const auto pixel = [](DepthFault kind) { return Damaged(Fault(kind, 3)).depth(4, 3); };
   EXPECT_EQ(pixel(DepthFault::kNone), 19.0f);
   EXPECT_EQ(pixel(DepthFault::kMaximum), 65.535f);
   EXPECT_TRUE(std::isnan(pixel(DepthFault::kNotANumber)));
@@ -52,8 +58,9 @@ TEST(DepthFaults, HoldWhatTheyAreNamedAfter) {
 }
 
 TEST(DepthFaults, SpareMeasuredPixelsInTheMiddle) {
-  const DepthFrame frame =
-      Damaged({.kind = DepthFault::kZero, .first_frame = 3, .pixels_spared = 2});
+  DepthFaultSettings settings = Fault(DepthFault::kZero, 3);
+  settings.pixels_spared = 2;
+  const DepthFrame frame = Damaged(settings);
   for (int v = 0; v < 4; ++v) {
     for (int u = 0; u < 5; ++u) {
       const bool spared = u == 2 && (v == 1 || v == 2);
@@ -65,14 +72,86 @@ TEST(DepthFaults, SpareMeasuredPixelsInTheMiddle) {
 TEST(DepthFaults, HitTheirShareOfThePixelsTheSameOnesForOneSeed) {
   DepthFrame big{0, 0.0, DepthImage(100, 100, 2.0f)};
   DepthFrame again = big, other = big;
-  const DepthFaultSettings settings{.kind = DepthFault::kZero, .share = 0.1};
-  DamageFrame(settings, kUnit_m, 1, big);
-  DamageFrame(settings, kUnit_m, 1, again);
-  DamageFrame(settings, kUnit_m, 2, other);
+  DepthFaultSettings settings = Fault(DepthFault::kZero);
+  settings.share = 0.1;
+  DamageFrame(settings, {kUnit_m, 1, {}}, big);
+  DamageFrame(settings, {kUnit_m, 1, {}}, again);
+  DamageFrame(settings, {kUnit_m, 2, {}}, other);
   const auto lost = std::count(big.depth.pixels().begin(), big.depth.pixels().end(), 0.0f);
   EXPECT_NEAR(static_cast<double>(lost), 1000.0, 100.0);
   EXPECT_EQ(big.depth.pixels(), again.depth.pixels());
   EXPECT_NE(big.depth.pixels(), other.depth.pixels());
+}
+
+TEST(DepthFaults, StayInTheirRectangle) {
+  DepthFaultSettings settings = Fault(DepthFault::kZero, 3);
+  settings.place = FaultPlace::kRegion;
+  settings.region_px = {1.0, 2.0, 3.0, 2.0};
+  const DepthFrame frame = Damaged(settings);
+  for (int v = 0; v < 4; ++v) {
+    for (int u = 0; u < 5; ++u) {
+      const bool is_in = v == 2 && u >= 1 && u <= 3;
+      EXPECT_EQ(frame.depth(u, v), is_in ? 0.0f : Counting(3).depth(u, v)) << u << " " << v;
+    }
+  }
+}
+
+// A wall 2 m away; the bone runs along the image's middle row, a little before the wall.
+TEST(DepthFaults, StayNearTheirBone) {
+  const PinholeCamera camera{100, 80, 100.0, 100.0, 49.5, 39.5};
+  DepthFaultSettings settings = Fault(DepthFault::kZero);
+  settings.place = FaultPlace::kBone;
+  settings.bone = "left_forearm";
+  settings.bone_radius_m = 0.2;
+  FaultContext context{kUnit_m, 1, camera};
+  const Vector3d from(-0.3, 0.0, 1.9), to(0.3, 0.0, 1.9);
+  context.bone = {{from, to}};
+  DepthFrame frame{0, 0.0, DepthImage(camera.width, camera.height, 2.0f)};
+  DamageFrame(settings, context, frame);
+  int damaged = 0;
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      const Vector3d point = camera.Unproject<double>(u, v, 2.0);
+      const Vector3d nearest(std::clamp(point.x(), -0.3, 0.3), 0.0, 1.9);
+      const bool is_near = (point - nearest).norm() <= settings.bone_radius_m;
+      EXPECT_EQ(frame.depth(u, v), is_near ? 0.0f : 2.0f) << u << " " << v;
+      damaged += is_near ? 1 : 0;
+    }
+  }
+  EXPECT_GT(damaged, 400);
+  EXPECT_LT(damaged, 1000);
+}
+
+TEST(DepthFaults, ABoneReachesToThoseThatHangOnIt) {
+  std::vector<Vector3d> joints;
+  for (std::size_t b = 0; b < Bones().size(); ++b)
+    joints.emplace_back(static_cast<double>(b), 0, 0);
+  const auto forearm = static_cast<double>(FindBone("left_forearm"));
+  const std::vector<BoneSegment> segments = BoneSegments("left_forearm", joints);
+  ASSERT_EQ(segments.size(), 1u);
+  EXPECT_EQ(segments[0][0].x(), forearm);
+  EXPECT_EQ(segments[0][1].x(), static_cast<double>(FindBone("left_hand")));
+  const std::vector<BoneSegment> hand = BoneSegments("left_hand", joints);
+  ASSERT_EQ(hand.size(), 1u);
+  EXPECT_EQ(hand[0][0], hand[0][1]);
+}
+
+TEST(DepthFaults, AnUnknownBoneOrARectangleTurnedOverIsRefused) {
+  const auto problem = [](const Json& depth) -> std::string {
+    try {
+      ReadSettings<InputFaultSettings>({{"depth", depth}}, {"e.json", "faults"});
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(problem({{"kind", "zero"}, {"place", "bone"}, {"bone", "tail"}})
+                .find("bone \"tail\": expected one of pelvis"),
+            std::string::npos);
+  EXPECT_NE(problem({{"kind", "zero"}, {"place", "region"}, {"region_px", {9, 0, 3, 5}}})
+                .find("left and top first"),
+            std::string::npos);
+  EXPECT_EQ(problem({{"kind", "zero"}, {"place", "bone"}, {"bone", "left_hand"}}), "");
 }
 
 TEST(SubjectFaults, ABoneWithoutVerticesHandsItsWeightsToItsParent) {
