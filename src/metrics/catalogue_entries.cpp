@@ -348,6 +348,94 @@ std::vector<Metric> JointErrorMetrics() {
   };
 }
 
+// Whether a tracker knows its error.
+std::vector<Metric> UncertaintyMetrics() {
+  return {
+      {.key = "covariances_given",
+       .label = "visible joints with a covariance",
+       .unit = "%",
+       .scale = 1e2,
+       .decimals = 1,
+       .better = Better::kHigher,
+       .definition = "Share of the visible joints, over all frames, for which the tracker gives a "
+                     "covariance."},
+      {.key = "coverage_68",
+       .label = "coverage of the 68 % regions",
+       .unit = "%",
+       .scale = 1e2,
+       .decimals = 1,
+       .shown_in = {kVariantTable, kTerminal},
+       .definition = "Share of the visible joints with a covariance that lie within the ellipsoid "
+                     "that should hold 68 % of them."},
+      {.key = "coverage_95",
+       .label = "coverage of the 95 % regions",
+       .unit = "%",
+       .scale = 1e2,
+       .decimals = 1,
+       .shown_in = {kVariantTable, kTerminal},
+       .definition = "Share of the visible joints with a covariance that lie within the ellipsoid "
+                     "that should hold 95 % of them."},
+      {.key = "negative_log_likelihood",
+       .label = "negative log-likelihood of the joints",
+       .unit = "nats",
+       .decimals = 2,
+       .better = Better::kLower,
+       .shown_in = {kVariantTable},
+       .definition = "−log of the Gaussian density, in 1/m³, that the tracker gave to the true "
+                     "place of a joint: the mean over the visible joints with a covariance."},
+      {.key = "unreliable_told",
+       .label = "joints off by more than 5 cm, told",
+       .unit = "%",
+       .scale = 1e2,
+       .decimals = 1,
+       .better = Better::kHigher,
+       .shown_in = {kVariantTable},
+       .definition = "Share of the visible joints off by more than 5 cm that the tracker called "
+                     "unreliable."},
+      {.key = "unreliable_false_alarms",
+       .label = "joints within 5 cm, called unreliable",
+       .unit = "%",
+       .scale = 1e2,
+       .decimals = 1,
+       .better = Better::kLower,
+       .shown_in = {kVariantTable},
+       .definition = "Share of the visible joints within 5 cm that the tracker called unreliable."},
+  };
+}
+
+// What a single frame allows.
+std::vector<Metric> BoundMetrics() {
+  return {
+      {.key = "joint_bound_rms_visible_m",
+       .label = "bound of the joint error",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .shown_in = {kSummaryTable, kVariantTable, kTerminal},
+       .definition =
+           "Cramér–Rao bound: the smallest error of visible joints that an unbiased estimate from "
+           "one frame alone can have, given the body's shape, the sensor's noise at each pixel and "
+           "a weak prior; root mean square over visible joints and frames. Trackers with memory "
+           "may pass it."},
+      {.key = "joint_error_rms_visible_m",
+       .label = "joint error, visible joints, root mean square",
+       .unit = "mm",
+       .scale = 1e3,
+       .decimals = 2,
+       .better = Better::kLower,
+       .shown_in = {kVariantTable},
+       .definition = "Root mean square of the joint error over the visible joints and the frames "
+                     "of joint_bound_rms_visible_m."},
+      {.key = "joint_efficiency",
+       .label = "efficiency of the joints",
+       .decimals = 3,
+       .better = Better::kHigher,
+       .shown_in = {kSummaryTable, kVariantTable, kTerminal},
+       .definition = "joint_bound_rms_visible_m / joint_error_rms_visible_m: 1 is what a single "
+                     "frame allows."},
+  };
+}
+
 // How the limbs move.
 std::vector<Metric> MotionErrors() {
   return {
@@ -731,8 +819,8 @@ const std::vector<Metric>& MetricCatalogue() {
     std::vector<Metric> all;
     for (const auto& entries :
          {IdentityColumns(), FrameCounts(), CorrespondingPointErrors(), NearestPointErrors(),
-          OwnSurfaceErrors(), ObservationErrors(), JointErrorMetrics(), MotionErrors(),
-          BodyErrors(), Costs(), SolverDiagnostics()})
+          OwnSurfaceErrors(), ObservationErrors(), JointErrorMetrics(), BoundMetrics(),
+          UncertaintyMetrics(), MotionErrors(), BodyErrors(), Costs(), SolverDiagnostics()})
       all.insert(all.end(), entries.begin(), entries.end());
     return all;
   }();

@@ -47,6 +47,10 @@ struct TrackResult {
   std::string message;                  // why, for a person; "" when converged
   std::vector<Vector3f> vertices;       // the subject's surface, camera frame, metres
   std::vector<Vector3<double>> joints;  // one for each bone: its proximal end, camera frame, metres
+  // What trackers say of their joints' accuracy, where they are asked (joint_uncertainty.h): each
+  // joint's covariance, m², and whether it should not be relied on. Empty: nothing.
+  std::vector<Matrix3<double>> joint_covariances{};
+  std::vector<bool> unreliable_joints{};
   BoneTransforms camera_from_rest;      // one for each bone; empty for methods without bones
   int iterations = 0;
   std::vector<NamedValue> energies;  // at the last linearisation, weighted as minimised

@@ -26,6 +26,8 @@ struct FitSummary {
   Energies energies{};      // at the last linearisation
   double energy_rise = -1;  // see TrackResult
   double condition = -1;    // of the last normal equations; -1 where not estimated
+  // Of the last normal equations (tracking/joint_uncertainty.h); empty where not asked for.
+  std::vector<Matrix3<double>> unit_covariances;
   int iterations = 0;
   int inexact_steps = 0;   // that conjugate gradients did not solve to their tolerance
   bool converged = false;  // the stopping rule was met
@@ -79,6 +81,7 @@ class PoseFitter {
   Energies Assemble(const TermInput& input);
   Solution Solve(const BlockNormalEquations& equations);
   double EnergyRise(const BlockNormalEquations& before, const TermInput& after);
+  std::vector<Matrix3<double>> JointUnitCovariances(const BodyPose& pose) const;
   bool IsSmall(const PoseStep& step) const;
   bool IsWorthless(const Eigen::VectorXd& increment) const;
 

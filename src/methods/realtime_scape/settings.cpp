@@ -205,6 +205,8 @@ void Settings::Describe(Fields& f) {
   f.Section("limbs", limbs, {.meaning = "search for limbs that moved away from the model"});
   f.Section("recovery", recovery, {.meaning = "detection of a lost subject and relocalisation"});
   f.Section("watch", watch, {.meaning = "areas that model and frame do not account for"});
+  f.Section("uncertainty", uncertainty,
+            {.meaning = "covariances of the joints, from the normal equations"});
   f.Number(
       "lost_below", lost_below,
       {.meaning =
