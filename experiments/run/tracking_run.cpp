@@ -60,9 +60,15 @@ void Track(const RunPlan& run, const SequenceReader& sequence, const WorkFolders
   BodyModel subject = ObtainSubject(run, sequence, work);
   DamageSubject(run.faults.subject, subject);
   const auto damage = [&](DepthFrame& frame) {
+    if (const int shown = run.faults.view.ShownFrame(frame.index); shown != frame.index) {
+      frame.depth = sequence.ReadDepth(shown);
+      frame.time_s = shown / sequence.info().fps;
+    }
+    run.faults.view.DamageImage(frame.depth);
     DamageFrame(run.faults.depth, sequence.info().depth_unit_m, run.seed, frame);
   };
-  TrackSequence(sequence, run.method, subject, damage, estimate_folder);
+  TrackSequence(sequence, run.faults.view.ToldCamera(sequence.info().camera), run.method, subject,
+                damage, estimate_folder);
 }
 
 // What names and explains the run; scores are added to it.
@@ -108,9 +114,9 @@ KnownJoints KnownOf(const SequenceInfo& info) {
 
 }  // namespace
 
-void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
-                   const BodyModel& subject, const std::function<void(DepthFrame&)>& prepare,
-                   const fs::path& folder) {
+void TrackSequence(const SequenceReader& sequence, const PinholeCamera& camera,
+                   const MethodConfig& method, const BodyModel& subject,
+                   const std::function<void(DepthFrame&)>& prepare, const fs::path& folder) {
   const SequenceInfo& info = sequence.info();
   ForgetPeakMemory();
   const double before_mb = ResidentMemory_mb();
@@ -119,14 +125,14 @@ void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
   EstimateWriter writer(folder, subject.rest);
   Progress progress("track " + method.method, info.frames);
   const KnownJoints known = KnownOf(info);
-  tracker->Start(subject, info.camera);
+  tracker->Start(subject, camera);
   for (int i = 0; i < info.frames; ++i) {
     DepthFrame frame{i, i / info.fps, sequence.ReadDepth(i), i == 0 ? known : KnownJoints()};
     prepare(frame);
     const Stopwatch watch;
     TrackResult result = tracker->TrackFrame(frame);
     const double frame_ms = watch.ElapsedMs();
-    MarkAstray(frame, info.camera, diagonal_m, result);
+    MarkAstray(frame, camera, diagonal_m, result);
     writer.Append(result, frame_ms);
     progress.Advance();
   }
