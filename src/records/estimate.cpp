@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "body/skeleton.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/write_failure.h"
@@ -64,7 +65,9 @@ FrameEstimate EstimateOf(const TrackResult& result, double frame_ms) {
           RotationDrift(result.camera_from_rest),
           result.joints,
           Packed(result.joint_covariances),
-          NamesOf(result.unreliable_joints)};
+          NamesOf(result.unreliable_joints),
+          AbsentIfNegative(result.weak_directions),
+          result.weak_directions < 0 ? kAbsent : result.agreeing_digits};
 }
 
 std::size_t BytesPerFrame(const TriangleMesh& mesh) {
@@ -111,6 +114,14 @@ void FrameEstimate::Describe(Fields& f) {
   f.Texts("unreliable_joints", unreliable_joints,
           {.meaning = "joints that the tracker says not to rely on; absent where there are none",
            .optional = true});
+  f.Number("weak_directions", weak_directions,
+           {.meaning = "eigenvalues of the last normal equations below 1e-6 of the largest; absent "
+                       "if that was not checked",
+            .optional = true});
+  f.Number("agreeing_digits", agreeing_digits,
+           {.meaning = "digits in which the last step agrees with a slow solution of the same "
+                       "equations; absent if that was not checked",
+            .optional = true});
 }
 
 std::string FrameEstimate::Problem() const {

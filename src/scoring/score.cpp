@@ -50,6 +50,8 @@ void RecordOutcomes(const EstimateReader& estimate, RunRecord& record) {
     put("condition", i, frame.condition);
     put("rotation_drift", i, frame.rotation_drift);
     put("energy_rise", i, frame.energy_rise);
+    put("weak_directions", i, frame.weak_directions);
+    put("agreeing_digits", i, frame.agreeing_digits);
     for (const NamedValue& energy : frame.energies) put("energy_" + energy.name, i, energy.value);
   }
 }

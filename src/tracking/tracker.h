@@ -59,6 +59,10 @@ struct TrackResult {
   // By what share of itself a step raised the energy at most, its correspondences kept; 0 where
   // none did, -1 where that was not looked at.
   double energy_rise = -1.0;
+  // Of the last normal equations, where they were checked (solver/system_check.h): eigenvalues
+  // below 1e-6 of the largest, and digits in which the solution agrees with a slow one; -1 elsewhere.
+  int weak_directions = -1;
+  double agreeing_digits = -1.0;
 };
 
 class Tracker {

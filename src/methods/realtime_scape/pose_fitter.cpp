@@ -65,6 +65,10 @@ FitSummary PoseFitter::Fit(const Observation& observation, const PoseHistory& hi
                        view_.visible.size(), classification_.classes);
   fit.counts = classification_.counts;
   if (std::isfinite(equations_.energy())) fit.condition = solver_->EstimateCondition();
+  if (settings_.solver.watch_energy && fit.solved) {
+    fit.check = CheckSolution(equations_.hessian(), -equations_.gradient(), increment_);
+    clock_.Skip();  // no step of the algorithm
+  }
   if (settings_.uncertainty.IsAsked()) {
     fit.unit_covariances = JointUnitCovariances(fit.pose);
     clock_.Lap(Step::kSolve);

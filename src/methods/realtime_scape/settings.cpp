@@ -176,7 +176,8 @@ void SolverSettings::Describe(Fields& f) {
        .source = "keeps the system regular when nothing at all is seen"});
   f.Flag("watch_energy", watch_energy,
          {.meaning = "evaluates the energy a second time after each step, with the same "
-                     "correspondences, and reports the largest rise"});
+                     "correspondences, and reports the largest rise; holds each frame's last step "
+                     "against a slow solution of the same equations"});
 }
 
 void Settings::Describe(Fields& f) {

@@ -183,6 +183,10 @@ TrackResult SubjectTracker::Result(FitSummary fit, Ending ending) const {
   result.step_ms = fit.times.Named();
   result.energy_rise = fit.energy_rise;
   result.condition = fit.condition;
+  if (fit.check) {
+    result.weak_directions = fit.check->weak_directions;
+    result.agreeing_digits = fit.check->agreeing_digits;
+  }
   return result;
 }
 
