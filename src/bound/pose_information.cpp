@@ -14,15 +14,6 @@ namespace {
 
 using PoseRow = Eigen::Matrix<double, 1, kPoseUnknowns>;
 
-std::array<float, kBoneCount> SharesAt(const SurfaceSample& sample, const TrueBody& body) {
-  std::array<float, kBoneCount> shares{};
-  for (int k = 0; k < 3; ++k) {
-    const auto& of_corner = body.shares[body.triangles[sample.triangle][k]];
-    for (int j = 0; j < kBoneCount; ++j) shares[j] += sample.barycentric[k] * of_corner[j];
-  }
-  return shares;
-}
-
 Vector3d NormalAt(const SurfaceSample& sample, const TrueBody& body) {
   const Triangle& t = body.triangles[sample.triangle];
   const Vector3f first = body.vertices[t[1]] - body.vertices[t[0]];
@@ -30,15 +21,18 @@ Vector3d NormalAt(const SurfaceSample& sample, const TrueBody& body) {
   return first.cross(second).cast<double>().normalized();
 }
 
-// nᵀ J of one surface point.
-PoseRow NormalMotion(const Vector3d& point, const Vector3d& normal,
-                     const std::array<float, kBoneCount>& shares,
-                     const std::array<Vector3d, kBoneCount>& joints) {
+// nᵀ J of the surface point of a sample: its corners move, each with its own shares.
+PoseRow NormalMotion(const SurfaceSample& sample, const Vector3d& normal, const TrueBody& body) {
   PoseRow row = PoseRow::Zero();
   row.head<3>() = normal;
-  for (int j = 0; j < kBoneCount; ++j) {
-    if (shares[j] == 0.0f) continue;
-    row.segment<3>(3 + 3 * j) = double{shares[j]} * (point - joints[j]).cross(normal);
+  for (int k = 0; k < 3; ++k) {
+    const int vertex = body.triangles[sample.triangle][k];
+    const Vector3d place = body.vertices[vertex].cast<double>();
+    for (int j = 0; j < kBoneCount; ++j) {
+      const double share = double{sample.barycentric[k]} * double{body.shares[vertex][j]};
+      if (share != 0.0)
+        row.segment<3>(3 + 3 * j) += share * (place - body.joints[j]).cross(normal).transpose();
+    }
   }
   return row;
 }
@@ -99,9 +93,7 @@ Eigen::MatrixXd PoseInformation(const TrueBody& body, const Image<SurfaceSample>
       const Vector3d normal = NormalAt(sample, body);
       const double weight =
           pixel.measured_share / (shared_area_px * NormalVariance(pixel, point, normal));
-      rows.col(count++) =
-          std::sqrt(weight) *
-          NormalMotion(point, normal, SharesAt(sample, body), body.joints).transpose();
+      rows.col(count++) = std::sqrt(weight) * NormalMotion(sample, normal, body).transpose();
       if (count == kRowsAtOnce) add_rows();
     }
   }
