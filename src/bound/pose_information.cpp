@@ -81,6 +81,7 @@ Eigen::MatrixXd PoseInformation(const TrueBody& body, const Image<SurfaceSample>
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(kPoseUnknowns, kPoseUnknowns);
   int count = 0;
   const auto add_rows = [&] {
+    if (count == 0) return;  // Eigen divides by the number of columns
     information.selfadjointView<Eigen::Lower>().rankUpdate(rows.leftCols(count));
     count = 0;
   };
