@@ -29,7 +29,7 @@ void UncertaintySettings::Describe(Fields& f) {
                        "no covariances are estimated",
             .min = 0,
             .max = 1e6,
-            .source = "configs/methods/*_uncertain.json hold what was calibrated"});
+            .source = "configs/methods/realtime_scape_uncertain.json holds what was calibrated"});
   f.Section("sensor", sensor, {.meaning = "noise of the sensor that covariances are computed for"});
   f.Number("model_deviation_m", model_deviation_m,
            {.meaning = "standard deviation, along each axis, of how far the joints of the model "
@@ -38,7 +38,7 @@ void UncertaintySettings::Describe(Fields& f) {
             .min = 0,
             .max = 1,
             .origin = Origin::kGuessed,
-            .source = "configs/methods/*_uncertain.json hold what was calibrated"});
+            .source = "configs/methods/realtime_scape_uncertain.json holds what was calibrated"});
   f.Number("unreliable_above_m", unreliable_above_m,
            {.meaning = "a joint is unreliable when the longest axis of its covariance, as a "
                        "standard deviation, exceeds this",
@@ -46,7 +46,7 @@ void UncertaintySettings::Describe(Fields& f) {
             .min = 0,
             .max = 10,
             .origin = Origin::kGuessed,
-            .source = "configs/methods/*_uncertain.json hold what was calibrated"});
+            .source = "configs/methods/realtime_scape_uncertain.json holds what was calibrated"});
 }
 
 std::vector<Matrix3<double>> UnitCovariances(const Eigen::MatrixXd& hessian,
