@@ -28,7 +28,7 @@ void Track(const TrackArguments& a) {
   RequireConsistent(sequence, FrameSelection::kSample, a.sequence);
   if (!a.subject.empty()) RequireConsistent(subject, a.subject);
   const auto as_stored = [](DepthFrame&) {};
-  TrackSequence(sequence, method, subject, as_stored, a.output);
+  TrackSequence(sequence, sequence.info().camera, method, subject, as_stored, a.output);
   RunRecord record;
   ScoreRun(sequence, EstimateReader(a.output), ScoreSettings(), record);
   fmt::print("{}\n", record.summary.dump(2));

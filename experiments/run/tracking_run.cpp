@@ -81,11 +81,17 @@ void Track(const RunPlan& run, const SequenceReader& sequence, const WorkFolders
   const DepthFaultSettings& faults = run.faults.depth;
   FaultContext context{sequence.info().depth_unit_m, run.seed, sequence.info().camera};
   const auto damage = [&](DepthFrame& frame) {
+    if (const int shown = run.faults.view.ShownFrame(frame.index); shown != frame.index) {
+      frame.depth = sequence.ReadDepth(shown);
+      frame.time_s = shown / sequence.info().fps;
+    }
+    run.faults.view.DamageImage(frame.depth);
     if (faults.place == FaultPlace::kBone && faults.Damages(frame.index))
       context.bone = BoneSegments(faults.bone, JointsOfBones(sequence, frame.index));
     DamageFrame(faults, context, frame);
   };
-  TrackSequence(sequence, run.method, subject, damage, estimate_folder);
+  TrackSequence(sequence, run.faults.view.ToldCamera(sequence.info().camera), run.method, subject,
+                damage, estimate_folder);
 }
 
 // What names and explains the run; scores are added to it.

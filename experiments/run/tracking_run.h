@@ -13,8 +13,9 @@ namespace vitruvia {
 
 // Tracks a whole sequence with that subject; only TrackFrame is timed. Every frame goes through
 // `prepare` before the tracker gets it. The estimate appears at `folder` whole or not at all.
-void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
-                   const BodyModel& subject, const std::function<void(DepthFrame&)>& prepare,
+void TrackSequence(const SequenceReader& sequence, const PinholeCamera& camera,
+                   const MethodConfig& method, const BodyModel& subject,
+                   const std::function<void(DepthFrame&)>& prepare,
                    const std::filesystem::path& folder);
 
 // Carries out the run: estimate and log go to the run's folder, the record is returned. A sequence

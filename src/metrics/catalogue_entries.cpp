@@ -11,6 +11,8 @@ const std::vector<MetricGroup>& MetricGroups() {
       {"Distance to a true surface with triangles of its own", OwnSurfaceErrors()},
       {"The estimate against what the camera saw", ObservationErrors()},
       {"Joints", JointErrorMetrics()},
+      {"What a single frame allows", BoundMetrics()},
+      {"Whether the tracker knows its error", UncertaintyMetrics()},
       {"Motion", MotionErrors()},
       {"Bodies and scans", BodyErrors()},
       {"Time, effort and memory", Costs()},

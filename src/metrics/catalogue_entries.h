@@ -15,10 +15,12 @@ std::vector<Metric> NearestPointErrors();        // distance to the nearest surf
 std::vector<Metric> OwnSurfaceErrors();
 std::vector<Metric> ObservationErrors();  // what the camera saw against the estimate
 std::vector<Metric> JointErrorMetrics();
-std::vector<Metric> MotionErrors();       // how the limbs move
-std::vector<Metric> BodyErrors();         // fitted bodies and scans
-std::vector<Metric> Costs();              // time, effort and memory
-std::vector<Metric> SolverDiagnostics();  // what the solver reports
+std::vector<Metric> BoundMetrics();        // what a single frame allows
+std::vector<Metric> UncertaintyMetrics();  // whether a tracker knows its error
+std::vector<Metric> MotionErrors();        // how the limbs move
+std::vector<Metric> BodyErrors();          // fitted bodies and scans
+std::vector<Metric> Costs();               // time, effort and memory
+std::vector<Metric> SolverDiagnostics();   // what the solver reports
 
 // What several entries say of averages, and of hidden parts and lost frames.
 inline constexpr const char* kOverVertices = "the vertices of a frame, then the frames";

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "body/skeleton.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/write_failure.h"
@@ -21,6 +22,7 @@ static_assert(sizeof(Vector3f) == 3 * sizeof(float), "vertices.bin holds packed 
 
 constexpr const char* kIndexFile = "estimate.json";
 constexpr const char* kVerticesFile = "vertices.bin";
+constexpr std::size_t kNumbersOfCovariance = 6;
 constexpr const char* kMeshFile = "mesh.ply";
 
 // The largest ‖RᵀR − I‖ (Frobenius) of any bone.
@@ -36,6 +38,21 @@ double RotationDrift(const BoneTransforms& bones) {
 // Trackers say −1 for what they do not compute.
 double AbsentIfNegative(double value) { return value < 0.0 ? kAbsent : value; }
 
+// The upper triangles, row by row.
+std::vector<double> Packed(const std::vector<Matrix3<double>>& matrices) {
+  std::vector<double> packed;
+  for (const Matrix3<double>& m : matrices)
+    packed.insert(packed.end(), {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)});
+  return packed;
+}
+
+std::vector<std::string> NamesOf(const std::vector<bool>& joints) {
+  std::vector<std::string> names;
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (joints[j]) names.emplace_back(Bones()[j].joint);
+  return names;
+}
+
 FrameEstimate EstimateOf(const TrackResult& result, double frame_ms) {
   return {result.outcome,
           result.message,
@@ -46,7 +63,11 @@ FrameEstimate EstimateOf(const TrackResult& result, double frame_ms) {
           AbsentIfNegative(result.condition),
           AbsentIfNegative(result.energy_rise),
           RotationDrift(result.camera_from_rest),
-          result.joints};
+          result.joints,
+          Packed(result.joint_covariances),
+          NamesOf(result.unreliable_joints),
+          AbsentIfNegative(result.weak_directions),
+          result.weak_directions < 0 ? kAbsent : result.agreeing_digits};
 }
 
 std::size_t BytesPerFrame(const TriangleMesh& mesh) {
@@ -85,6 +106,36 @@ void FrameEstimate::Describe(Fields& f) {
   f.Number("rotation_drift", rotation_drift,
            {.meaning = "largest ‖RᵀR − I‖ of any bone; 0 for methods without bones"});
   f.Points("joints", joints, {.meaning = "proximal end of each bone, camera frame", .unit = "m"});
+  f.NumberList("joint_covariances_m2", joint_covariances_m2,
+               {.meaning = "covariance of each joint, camera frame: xx, xy, xz, yy, yz, zz of one "
+                           "joint after the other; absent where the tracker gives none",
+                .unit = "m²",
+                .optional = true});
+  f.Texts("unreliable_joints", unreliable_joints,
+          {.meaning = "joints that the tracker says not to rely on; absent where there are none",
+           .optional = true});
+  f.Number("weak_directions", weak_directions,
+           {.meaning = "eigenvalues of the last normal equations below 1e-6 of the largest; absent "
+                       "if that was not checked",
+            .optional = true});
+  f.Number("agreeing_digits", agreeing_digits,
+           {.meaning = "digits in which the last step agrees with a slow solution of the same "
+                       "equations; absent if that was not checked",
+            .optional = true});
+}
+
+std::string FrameEstimate::Problem() const {
+  const std::size_t expected = kNumbersOfCovariance * joints.size();
+  if (joint_covariances_m2.empty() || joint_covariances_m2.size() == expected) return "";
+  return fmt::format("joint_covariances_m2: expected {} numbers for {} joints, got {}", expected,
+                     joints.size(), joint_covariances_m2.size());
+}
+
+Matrix3<double> FrameEstimate::covariance_m2(std::size_t joint) const {
+  const double* c = joint_covariances_m2.data() + kNumbersOfCovariance * joint;
+  Matrix3<double> covariance;
+  covariance << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5];
+  return covariance;
 }
 
 void EstimateFile::Describe(Fields& f) {

@@ -26,8 +26,15 @@ struct FrameEstimate {
   double energy_rise = kAbsent;  // see TrackResult
   double rotation_drift = 0.0;  // largest ‖RᵀR − I‖ of any bone; 0 for methods without bones
   std::vector<Vector3<double>> joints;  // camera frame, metres
+  // Of each joint, m²: xx, xy, xz, yy, yz, zz; empty where the tracker gives none.
+  std::vector<double> joint_covariances_m2{};
+  std::vector<std::string> unreliable_joints{};                 // by name
+  double weak_directions = kAbsent, agreeing_digits = kAbsent;  // see TrackResult
 
+  bool has_covariances() const { return !joint_covariances_m2.empty(); }
+  Matrix3<double> covariance_m2(std::size_t joint) const;
   void Describe(Fields& fields);
+  std::string Problem() const;
 };
 
 struct EstimateFile {

@@ -101,6 +101,16 @@ void RunRecord::Describe(Fields& f) {
         {.meaning = "joint → mean error; absent where no joints were scored",
          .unit = "m",
          .optional = true});
+  f.Map("joint_bound_m", joint_bound_m,
+        {.meaning = "joint → smallest error that a single frame allows (Cramér–Rao), root mean "
+                    "square over the frames in which it is visible; absent where it was not "
+                    "computed",
+         .unit = "m",
+         .optional = true});
+  f.Map("joint_error_rms_m", joint_error_rms_m,
+        {.meaning = "joint → error over the same frames, root mean square",
+         .unit = "m",
+         .optional = true});
   f.List("steps", steps, {.meaning = "times of the method's steps, in its order"});
   f.Number("diagonal_m", diagonal_m,
            {.meaning = "diagonal of the bounding box of the true subject in the rest pose; absent "

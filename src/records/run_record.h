@@ -55,6 +55,9 @@ struct RunRecord {
   std::vector<double> threshold_m;
   std::map<std::string, std::vector<double>> joint_accuracy;
   std::map<std::string, double> joint_error_mean_m;  // per joint name
+  // Per joint name, root mean squares over the frames in which the joint is visible: what a single
+  // frame allows, and the error. Empty where the bound was not computed.
+  std::map<std::string, double> joint_bound_m, joint_error_rms_m;
   struct Step {
     std::string name;
     double median_ms = 0, p95_ms = 0, max_ms = 0;

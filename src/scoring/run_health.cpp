@@ -24,22 +24,26 @@ FrameState StateOf(double failed, double visible_error_m) {
 }
 
 // frames_lost: lost frames. frames_to_recover: the most lost frames between two tracked ones; -1 if
-// the subject was not found again before the end. Both only where there is a true surface.
+// the subject was not found again before the end. frames_to_notice: the most consecutive lost
+// frames of which the tracker does not say so. All only where there is a true surface.
 void SummarizeLosses(const RunRecord& record, nlohmann::json& row) {
   const bool corresponding = record.frames.contains("l2_mean_visible_m");
   if (!corresponding && !record.frames.contains("two_way_visible_mean_m")) return;
   const auto& failed = record.frames.at("failed");
   const auto& error_m =
       record.frames.at(corresponding ? "l2_mean_visible_m" : "two_way_visible_mean_m");
-  int lost = 0, run = 0, longest = 0;
+  int lost = 0, run = 0, longest = 0, untold = 0, longest_untold = 0;
   for (std::size_t i = 0; i < failed.size(); ++i) {
     const FrameState state = StateOf(failed[i], error_m[i]);
     if (state == FrameState::kLost) ++lost, ++run;
     if (state == FrameState::kTracked) run = 0;
     longest = std::max(longest, run);
+    untold = state == FrameState::kLost && failed[i] == 0.0 ? untold + 1 : 0;
+    longest_untold = std::max(longest_untold, untold);
   }
   row["frames_lost"] = lost;
   row["frames_to_recover"] = run > 0 ? -1 : longest;
+  row["frames_to_notice"] = longest_untold;
 }
 
 // Infinite numbers of all frames. NaN says that a value is absent and does not count; a tracker's
@@ -51,6 +55,14 @@ int CountInfinite(const RunRecord& record) {
         std::count_if(values.begin(), values.end(), [](double v) { return std::isinf(v); }));
   }
   return count;
+}
+
+void SummarizeMinimum(const RunRecord& record, const char* series, const char* key,
+                      nlohmann::json& row) {
+  const auto found = record.frames.find(series);
+  if (found == record.frames.end()) return;
+  const std::vector<double> values = PresentValues(found->second);
+  if (!values.empty()) row[key] = *std::min_element(values.begin(), values.end());
 }
 
 void SummarizeMaximum(const RunRecord& record, const char* series, const char* key,
@@ -85,6 +97,8 @@ void SummarizeEnergies(const RunRecord& record, nlohmann::json& row) {
 void SummarizeHealth(const RunRecord& record, nlohmann::json& row) {
   SummarizeMaximum(record, "condition", "condition_max", row);
   SummarizeMaximum(record, "rotation_drift", "rotation_drift_max", row);
+  SummarizeMaximum(record, "weak_directions", "weak_directions_max", row);
+  SummarizeMinimum(record, "agreeing_digits", "agreeing_digits_min", row);
   row["non_finite"] = CountInfinite(record);
   SummarizeLosses(record, row);
   SummarizeEnergies(record, row);

@@ -7,9 +7,10 @@
 namespace vitruvia {
 
 // Adds to the row, each only where the record's frames hold what it is computed from:
-//   frames_lost, frames_to_recover   where the true surface is known
+//   frames_lost, frames_to_recover, frames_to_notice   where the true surface is known
 //   non_finite                       number of infinite values in all series
 //   condition_max, rotation_drift_max
+//   weak_directions_max, agreeing_digits_min
 //   energy_mean                      sum over the terms of each term's mean over its frames
 //   energy_rises, energy_rise_max    frames in which a step raised the energy; the largest share
 void SummarizeHealth(const RunRecord& record, nlohmann::json& row);

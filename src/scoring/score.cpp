@@ -11,6 +11,7 @@
 #include "scoring/own_surface_score.h"
 #include "scoring/run_health.h"
 #include "scoring/surface_score.h"
+#include "scoring/uncertainty_score.h"
 
 namespace vitruvia {
 namespace {
@@ -49,6 +50,8 @@ void RecordOutcomes(const EstimateReader& estimate, RunRecord& record) {
     put("condition", i, frame.condition);
     put("rotation_drift", i, frame.rotation_drift);
     put("energy_rise", i, frame.energy_rise);
+    put("weak_directions", i, frame.weak_directions);
+    put("agreeing_digits", i, frame.agreeing_digits);
     for (const NamedValue& energy : frame.energies) put("energy_" + energy.name, i, energy.value);
   }
 }
@@ -124,6 +127,8 @@ void ScoreSettings::Describe(Fields& f) {
            {.meaning = "when the estimate is held against what the camera saw: where the sequence "
                        "has no true surface, always, or never",
             .origin = Origin::kInput});
+  f.Section("bound", bound,
+            {.meaning = "the accuracy that a single frame allows, from truth and sensor"});
 }
 
 void ScoreRun(const SequenceReader& sequence, const EstimateReader& estimate,
@@ -132,6 +137,8 @@ void ScoreRun(const SequenceReader& sequence, const EstimateReader& estimate,
   ScoreSurfaces(sequence, estimate, settings.reconstruction_every, record);
   ScoreOwnSurfaces(sequence, estimate, record);
   ScoreJoints(sequence, estimate, record);
+  ScoreUncertainty(sequence, estimate, record);
+  ScoreBound(sequence, estimate, settings.bound, record);
   if (HoldsAgainstObservation(settings, sequence.info()))
     ScoreObservation(sequence, estimate, record);
   RecordOutcomes(estimate, record);

@@ -4,6 +4,7 @@
 #include "config/settings.h"
 #include "records/estimate.h"
 #include "records/run_record.h"
+#include "scoring/bound_score.h"
 #include "sequence/sequence.h"
 
 namespace vitruvia {
@@ -25,6 +26,7 @@ enum class AgainstObservation {
 struct ScoreSettings {
   int reconstruction_every = 0;  // frames; 0: not measured
   AgainstObservation against_observation = AgainstObservation::kWithoutTruth;
+  BoundSettings bound;
 
   void Describe(Fields& fields);
 };

@@ -76,6 +76,13 @@ std::vector<SparedPixel> SparedPixels(const DepthImage& depth, int count) {
   return measured;
 }
 
+// About the origin, which is on the floor between the feet.
+void Scale(double factor, Subject& subject) {
+  for (Vector3f& vertex : subject.rest.vertices) vertex *= static_cast<float>(factor);
+  for (Vector3<double>& joint : subject.skeleton.joints) joint *= factor;
+  for (Vector3<double>& tip : subject.skeleton.tips) tip *= factor;
+}
+
 }  // namespace
 
 void DepthFaultSettings::Describe(Fields& f) {
@@ -143,6 +150,9 @@ void SubjectFaultSettings::Describe(Fields& f) {
             {.meaning = "triangles added to the template with two corners in one vertex",
              .min = 0,
              .max = 1e6});
+  f.Number(
+      "size_factor", size_factor,
+      {.meaning = "factor on all lengths of the template and its skeleton", .min = 0.1, .max = 10});
 }
 
 std::string SubjectFaultSettings::Problem() const {
@@ -159,12 +169,14 @@ std::string SubjectFaultSettings::Problem() const {
 
 bool InputFaultSettings::AreNone() const {
   return depth.kind == DepthFault::kNone && subject.bone_without_vertices.empty() &&
-         subject.duplicate_triangles == 0 && subject.degenerate_triangles == 0;
+         subject.duplicate_triangles == 0 && subject.degenerate_triangles == 0 &&
+         subject.size_factor == 1.0 && view.AreNone();
 }
 
 void InputFaultSettings::Describe(Fields& f) {
   f.Section("depth", depth, {.meaning = "what is wrong with some depth images"});
   f.Section("subject", subject, {.meaning = "what is wrong with the template"});
+  f.Section("view", view, {.meaning = "what is wrong with how the sequence is seen"});
 }
 
 std::vector<BoneSegment> BoneSegments(const std::string& bone,
@@ -199,6 +211,7 @@ void DamageFrame(const DepthFaultSettings& settings, const FaultContext& context
 }
 
 void DamageSubject(const SubjectFaultSettings& settings, Subject& subject) {
+  if (settings.size_factor != 1.0) Scale(settings.size_factor, subject);
   if (!settings.bone_without_vertices.empty()) {
     const int bone = FindBone(settings.bone_without_vertices);
     Eigen::MatrixXf weights = Dense(subject.weights, kBoneCount);

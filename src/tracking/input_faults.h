@@ -10,6 +10,7 @@
 #include "body/body_model.h"
 #include "config/settings.h"
 #include "tracking/tracker.h"
+#include "tracking/view_faults.h"
 
 namespace vitruvia {
 
@@ -48,6 +49,7 @@ struct SubjectFaultSettings {
   std::string bone_without_vertices;  // its weights go to its parent
   int duplicate_triangles = 0;        // that stand twice
   int degenerate_triangles = 0;       // that have two corners in one vertex
+  double size_factor = 1.0;           // on all lengths of the template and its skeleton
 
   void Describe(Fields& fields);
   std::string Problem() const;
@@ -56,6 +58,7 @@ struct SubjectFaultSettings {
 struct InputFaultSettings {
   DepthFaultSettings depth;
   SubjectFaultSettings subject;
+  ViewFaultSettings view;
 
   bool AreNone() const;
   void Describe(Fields& fields);

@@ -47,7 +47,11 @@ struct TrackResult {
   std::string message;                  // why, for a person; "" when converged
   std::vector<Vector3f> vertices;       // the subject's surface, camera frame, metres
   std::vector<Vector3<double>> joints;  // one for each bone: its proximal end, camera frame, metres
-  BoneTransforms camera_from_rest;      // one for each bone; empty for methods without bones
+  // What trackers say of their joints' accuracy, where they are asked (joint_uncertainty.h): each
+  // joint's covariance, m², and whether it should not be relied on. Empty: nothing.
+  std::vector<Matrix3<double>> joint_covariances{};
+  std::vector<bool> unreliable_joints{};
+  BoneTransforms camera_from_rest;  // one for each bone; empty for methods without bones
   int iterations = 0;
   std::vector<NamedValue> energies;  // at the last linearisation, weighted as minimised
   std::vector<NamedValue> step_ms;   // summed over the frame's iterations
@@ -55,6 +59,11 @@ struct TrackResult {
   // By what share of itself a step raised the energy at most, its correspondences kept; 0 where
   // none did, -1 where that was not looked at.
   double energy_rise = -1.0;
+  // Of the last normal equations, where they were checked (solver/system_check.h): eigenvalues
+  // below 1e-6 of the largest, and digits in which the solution agrees with a slow one; -1
+  // elsewhere.
+  int weak_directions = -1;
+  double agreeing_digits = -1.0;
 };
 
 class Tracker {

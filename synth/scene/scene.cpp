@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "math/angles.h"
 #include "math/rigid.h"
 #include "synth/scene/recording.h"
 
@@ -41,6 +42,12 @@ void ViewSettings::Describe(Fields& f) {
              .unit = "m",
              .min = -20.0,
              .max = 20.0});
+  f.Number("roll_deg", roll_deg,
+           {.meaning = "how far the camera is turned about its line of sight, clockwise as it sees "
+                       "the scene",
+            .unit = "deg",
+            .min = -360.0,
+            .max = 360.0});
 }
 
 std::string ViewSettings::Problem() const {
@@ -57,9 +64,11 @@ Rigidd CameraFromSubject(const ViewSettings& view) {
   const Vector3d position = ToVector(view.position_m);
   const Vector3d forward = (ToVector(view.look_at_m) - position).normalized();
   const Vector3d right = forward.cross(Vector3d::UnitY()).normalized();
+  const Vector3d down = forward.cross(right);
+  const double roll_rad = view.roll_deg * kRadiansPerDegree;
   Matrix3<double> rotation;
-  rotation.row(0) = right.transpose();
-  rotation.row(1) = forward.cross(right).transpose();  // down
+  rotation.row(0) = (std::cos(roll_rad) * right + std::sin(roll_rad) * down).transpose();
+  rotation.row(1) = (std::cos(roll_rad) * down - std::sin(roll_rad) * right).transpose();
   rotation.row(2) = forward.transpose();
   return {rotation, -(rotation * position)};
 }

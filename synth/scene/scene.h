@@ -32,12 +32,13 @@ struct ViewSettings {
   std::array<double, 3> position_m{
       0.0, 1.0, 2.8};  // subject frame's axes, origin on the floor under the start
   std::array<double, 3> look_at_m{0.0, 0.95, 0.0};
+  double roll_deg = 0.0;  // about the line of sight, the camera clockwise as it sees it
 
   void Describe(Fields& fields);
   std::string Problem() const;
 };
 
-// The upright camera (no roll) that looks from position_m at look_at_m.
+// The camera that looks from position_m at look_at_m: upright, then rolled.
 Rigidd CameraFromSubject(const ViewSettings& view);
 
 // Another camera that records the same scene.

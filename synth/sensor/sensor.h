@@ -17,6 +17,7 @@ struct SensorSettings {
   SensorModel model = SensorModel::kIdeal;
   double sigma_m = 0.002;       // gaussian: standard deviation of depth
   double dropout = 0.0;         // share of pixels without a measurement; not of the ideal one
+  int shared_px = 1;            // width of the window over which noise is one; not of the ideal one
   double depth_unit_m = 0.001;  // step of stored depth
   StructuredLightSettings kinect_v1{};
   TimeOfFlightSettings kinect_one{};

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "synth/sensor/shared_noise.h"
 #include "synth/sensor/surface_angle.h"
 
 namespace vitruvia {
@@ -49,6 +50,25 @@ class ProjectorRow {
   double shift_;
   std::vector<float> nearest_;
 };
+
+// What chance decides, at every pixel: no setting shifts the noise of the others.
+struct PatternDraws {
+  Image<double> across, down, along;  // standard normal
+  Image<double> luck;                 // even in [0, 1)
+};
+
+PatternDraws DrawPatternNoise(int width, int height, int shared_px, RandomStream& random) {
+  const Image<double> empty(width, height);
+  PatternDraws draws{empty, empty, empty, empty};
+  for (std::size_t i = 0; i < empty.pixels().size(); ++i) {
+    draws.across.pixels()[i] = random.Normal();
+    draws.down.pixels()[i] = random.Normal();
+    draws.along.pixels()[i] = random.Normal();
+    draws.luck.pixels()[i] = random.Uniform();
+  }
+  draws.along = SharedNoise(draws.along, shared_px);
+  return draws;
+}
 
 }  // namespace
 
@@ -206,7 +226,10 @@ MaskImage ProjectorShadow(const DepthImage& depth, const PinholeCamera& camera,
 }
 
 DepthImage MeasureByStructuredLight(const DepthImage& true_depth, const PinholeCamera& camera,
-                                    const StructuredLightSettings& settings, RandomStream& random) {
+                                    const StructuredLightSettings& settings, int shared_px,
+                                    RandomStream& random) {
+  const PatternDraws draws =
+      DrawPatternNoise(true_depth.width(), true_depth.height(), shared_px, random);
   const Image<float> angles = IncidenceAngles(true_depth, camera);
   const MaskImage shadow = ProjectorShadow(true_depth, camera, settings);
   const double pixels_per_native = camera.fx / settings.native_focal_px;
@@ -215,15 +238,12 @@ DepthImage MeasureByStructuredLight(const DepthImage& true_depth, const PinholeC
   DepthImage measured(true_depth.width(), true_depth.height());
   for (int v = 0; v < true_depth.height(); ++v) {
     for (int u = 0; u < true_depth.width(); ++u) {
-      // All numbers are drawn at every pixel: no setting shifts the noise of the others.
-      const double across = random.Normal(), down = random.Normal(), along = random.Normal();
-      const double luck = random.Uniform();
       // An edge is seen elsewhere than it is. Within a surface the place makes no difference: the
       // deviation of depth, which was measured with it, has it already.
       int from_u = u, from_v = v;
       const double lateral = LateralDeviationPx(settings, double{angles(u, v)}) * pixels_per_native;
-      const int moved_u = u + static_cast<int>(std::lround(across * lateral));
-      const int moved_v = v + static_cast<int>(std::lround(down * lateral));
+      const int moved_u = u + static_cast<int>(std::lround(draws.across(u, v) * lateral));
+      const int moved_v = v + static_cast<int>(std::lround(draws.down(u, v) * lateral));
       if (true_depth.Contains(moved_u, moved_v) &&
           !AreOnOneSurface(true_depth(u, v), true_depth(moved_u, moved_v))) {
         from_u = moved_u;
@@ -232,13 +252,13 @@ DepthImage MeasureByStructuredLight(const DepthImage& true_depth, const PinholeC
       const double z = true_depth(from_u, from_v), angle = angles(from_u, from_v);
       if (!(z >= settings.min_depth_m && z <= settings.max_depth_m) || angle > max_angle_rad ||
           shadow(from_u, from_v) != 0 ||
-          (luck < settings.edge_loss && IsAtEdge(true_depth, from_u, from_v))) {
+          (draws.luck(u, v) < settings.edge_loss && IsAtEdge(true_depth, from_u, from_v))) {
         continue;
       }
       // The published deviation is that of quantised depth: what the steps add is taken off.
       const double total = AxialDeviation(settings, z, angle), step = DepthStep(settings, z);
       const double before = std::sqrt(std::max(total * total - step * step / 12.0, 0.0));
-      measured(u, v) = static_cast<float>(QuantizedDepth(settings, z + along * before));
+      measured(u, v) = static_cast<float>(QuantizedDepth(settings, z + draws.along(u, v) * before));
     }
   }
   return measured;

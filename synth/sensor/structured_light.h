@@ -4,8 +4,9 @@
 // tracking", 3DIMPVT 2012 (axial and lateral deviations); Khoshelham & Elberink, "Accuracy and
 // resolution of Kinect depth data for indoor mapping applications", Sensors 2012 (disparity).
 //
-// Departures: noise is independent from pixel to pixel, while the real camera's is smooth over its
-// correlation window; surfaces that only the projector sees cast no shadow.
+// Departures: the noise of depth is shared over a stated window (shared_noise.h; none by default),
+// while the real camera's is smooth over its correlation window; surfaces that only the projector
+// sees cast no shadow.
 #pragma once
 
 #include "config/settings.h"
@@ -45,6 +46,7 @@ MaskImage ProjectorShadow(const DepthImage& depth, const PinholeCamera& camera,
                           const StructuredLightSettings& settings);
 
 DepthImage MeasureByStructuredLight(const DepthImage& true_depth, const PinholeCamera& camera,
-                                    const StructuredLightSettings& settings, RandomStream& random);
+                                    const StructuredLightSettings& settings, int shared_px,
+                                    RandomStream& random);
 
 }  // namespace vitruvia

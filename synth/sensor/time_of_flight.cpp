@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "synth/sensor/shared_noise.h"
 #include "synth/sensor/surface_angle.h"
 
 namespace vitruvia {
@@ -35,6 +36,24 @@ Meeting SurfacesAt(const DepthImage& depth, int u, int v, float reach_m) {
   meeting.farthest =
       open ? meeting.nearest + reach_m : std::min(meeting.farthest, meeting.nearest + reach_m);
   return meeting;
+}
+
+// What chance decides, at every pixel: no setting shifts the noise of the others.
+struct PhaseDraws {
+  Image<double> along;          // standard normal
+  Image<double> luck, mixture;  // even in [0, 1)
+};
+
+PhaseDraws DrawPhaseNoise(int width, int height, int shared_px, RandomStream& random) {
+  const Image<double> empty(width, height);
+  PhaseDraws draws{empty, empty, empty};
+  for (std::size_t i = 0; i < empty.pixels().size(); ++i) {
+    draws.along.pixels()[i] = random.Normal();
+    draws.luck.pixels()[i] = random.Uniform();
+    draws.mixture.pixels()[i] = random.Uniform();
+  }
+  draws.along = SharedNoise(draws.along, shared_px);
+  return draws;
 }
 
 }  // namespace
@@ -125,21 +144,22 @@ double AxialDeviation(const TimeOfFlightSettings& s, double z_m, double angle_ra
 }
 
 DepthImage MeasureByTimeOfFlight(const DepthImage& true_depth, const PinholeCamera& camera,
-                                 const TimeOfFlightSettings& settings, RandomStream& random) {
+                                 const TimeOfFlightSettings& settings, int shared_px,
+                                 RandomStream& random) {
+  const PhaseDraws draws =
+      DrawPhaseNoise(true_depth.width(), true_depth.height(), shared_px, random);
   const Image<float> angles = IncidenceAngles(true_depth, camera);
   const double max_angle_rad = settings.max_angle_deg * std::numbers::pi / 180.0;
   DepthImage measured(true_depth.width(), true_depth.height());
   for (int v = 0; v < true_depth.height(); ++v) {
     for (int u = 0; u < true_depth.width(); ++u) {
-      // All numbers are drawn at every pixel: no setting shifts the noise of the others.
-      const double along = random.Normal(), luck = random.Uniform();
-      const auto mixture = static_cast<float>(random.Uniform());
       float z = true_depth(u, v);
       double angle = angles(u, v);
-      if (luck < settings.flying_share && IsAtEdge(true_depth, u, v)) {
+      if (draws.luck(u, v) < settings.flying_share && IsAtEdge(true_depth, u, v)) {
         const Meeting surfaces =
             SurfacesAt(true_depth, u, v, static_cast<float>(settings.flying_reach_m));
-        z = surfaces.nearest + mixture * (surfaces.farthest - surfaces.nearest);
+        z = surfaces.nearest +
+            static_cast<float>(draws.mixture(u, v)) * (surfaces.farthest - surfaces.nearest);
         angle = 0.0;  // a mixture of signals, no surface that light could graze
       }
       if (!(z >= settings.min_depth_m && z <= settings.max_depth_m) || angle > max_angle_rad) {
@@ -148,7 +168,7 @@ DepthImage MeasureByTimeOfFlight(const DepthImage& true_depth, const PinholeCame
       const Vector3<double> ray = camera.Unproject<double>(u, v, 1.0);
       const double off_axis_rad = std::acos(1.0 / ray.norm());
       const double deviation = AxialDeviation(settings, double{z}, angle, off_axis_rad);
-      measured(u, v) = static_cast<float>(std::max(z + along * deviation, 0.0));
+      measured(u, v) = static_cast<float>(std::max(z + draws.along(u, v) * deviation, 0.0));
     }
   }
   return measured;

@@ -31,6 +31,7 @@ double AxialDeviation(const TimeOfFlightSettings& settings, double z_m, double a
                       double off_axis_rad);
 
 DepthImage MeasureByTimeOfFlight(const DepthImage& true_depth, const PinholeCamera& camera,
-                                 const TimeOfFlightSettings& settings, RandomStream& random);
+                                 const TimeOfFlightSettings& settings, int shared_px,
+                                 RandomStream& random);
 
 }  // namespace vitruvia

@@ -13,6 +13,8 @@ RunRecord Record() {
   record.frames = {{"failed", {0, 0, 1, 0, 0, 0, 0, 0}},
                    {"l2_mean_visible_m", {0.001, 0.002, 0.01, 0.06, 0.07, 0.01, 0.01, 0.01}},
                    {"condition", {10, 20, 90, 30, 30, 30, 30, 30}},
+                   {"weak_directions", {0, 0, 2, 0, 0, 0, 0, 0}},
+                   {"agreeing_digits", {14, 14, 9, 14, 14, 14, 14, 14}},
                    {"rotation_drift", {0, 0, 1e-16, 0, 0, 0, 0, 2e-16}},
                    {"energy_fit", {1, 1, 1, 1, 1, 1, 1, 9}},
                    {"energy_joint", {2, 2, 2, 2, 2, 2, 2, 2}}};
@@ -24,7 +26,10 @@ TEST(RunHealth, CountsLostFramesUntilTheSubjectIsFoundAgain) {
   SummarizeHealth(Record(), row);
   EXPECT_EQ(row.at("frames_lost"), 3);
   EXPECT_EQ(row.at("frames_to_recover"), 3);
+  EXPECT_EQ(row.at("frames_to_notice"), 2) << "frames 3 and 4 are off and not told";
   EXPECT_EQ(row.at("condition_max"), 90.0);
+  EXPECT_EQ(row.at("weak_directions_max"), 2.0);
+  EXPECT_EQ(row.at("agreeing_digits_min"), 9.0);
   EXPECT_EQ(row.at("rotation_drift_max"), 2e-16);
   EXPECT_EQ(row.at("non_finite"), 0);
   RunRecord to_the_end = Record();

@@ -19,7 +19,7 @@ const PinholeCamera kNarrow{.width = 101, .height = 401, .fx = 580, .fy = 580, .
 DepthImage Measured(const DepthImage& truth, const PinholeCamera& camera,
                     const StructuredLightSettings& settings = {}, std::uint64_t seed = 1) {
   RandomStream random(seed, "test");
-  return MeasureByStructuredLight(truth, camera, settings, random);
+  return MeasureByStructuredLight(truth, camera, settings, 1, random);
 }
 
 TEST(SurfaceAngle, IsThatOfAPlane) {

@@ -16,7 +16,7 @@ const PinholeCamera kNarrow{.width = 101, .height = 401, .fx = 580, .fy = 580, .
 DepthImage Measured(const DepthImage& truth, const PinholeCamera& camera,
                     const TimeOfFlightSettings& settings = {}, std::uint64_t seed = 1) {
   RandomStream random(seed, "test");
-  return MeasureByTimeOfFlight(truth, camera, settings, random);
+  return MeasureByTimeOfFlight(truth, camera, settings, 1, random);
 }
 
 // A post 21 columns wide, 2 m away, before a wall of wall_m; 0: before nothing.

@@ -207,11 +207,49 @@ TEST(SubjectFaults, ARootOrAnUnknownBoneIsRefused) {
   }
 }
 
+TEST(SubjectFaults, ATemplateOfAnotherSizeIsScaledAsAWhole) {
+  Subject subject = TinyBody();
+  const Subject whole = subject;
+  SubjectFaultSettings settings;
+  settings.size_factor = 1.1;
+  DamageSubject(settings, subject);
+  EXPECT_NEAR(subject.rest.vertices[5].y(), 1.1f * whole.rest.vertices[5].y(), 1e-6f);
+  EXPECT_NEAR(subject.skeleton.joints[7].x(), 1.1 * whole.skeleton.joints[7].x(), 1e-12);
+  EXPECT_NEAR(subject.skeleton.tips[7].x(), 1.1 * whole.skeleton.tips[7].x(), 1e-12);
+}
+
+TEST(ViewFaults, ImagesAreRepeatedOrComeBackwards) {
+  ViewFaultSettings settings;
+  settings.first_frame = 10;
+  settings.frames = 3;
+  EXPECT_EQ(settings.ShownFrame(11), 11);
+  settings.order = FrameOrder::kRepeated;
+  EXPECT_EQ(settings.ShownFrame(9), 9);
+  EXPECT_EQ(settings.ShownFrame(12), 10);
+  EXPECT_EQ(settings.ShownFrame(13), 13);
+  settings.order = FrameOrder::kBackwards;
+  EXPECT_EQ(settings.ShownFrame(12), 8);
+}
+
+TEST(ViewFaults, ImagesAreMirroredAndCutOff) {
+  DepthImage depth(4, 1);
+  for (int u = 0; u < 4; ++u) depth(u, 0) = 1.0f + static_cast<float>(u);
+  ViewFaultSettings settings;
+  settings.only_px = {1, 0, 3, 0};
+  settings.mirrored = true;
+  settings.DamageImage(depth);
+  EXPECT_EQ(depth.pixels(), (std::vector<float>{4.0f, 3.0f, 2.0f, 0.0f}));
+  settings.focal_factor = 1.05;
+  EXPECT_DOUBLE_EQ(settings.ToldCamera({}).fx, 1.05 * PinholeCamera().fx);
+}
+
 TEST(InputFaults, AreNoneUnlessSomethingIsDamaged) {
   EXPECT_TRUE(InputFaultSettings{}.AreNone());
-  InputFaultSettings depth, subject;
+  InputFaultSettings depth, subject, view;
   depth.depth.kind = DepthFault::kZero;
   subject.subject.duplicate_triangles = 1;
+  view.view.mirrored = true;
+  EXPECT_FALSE(view.AreNone());
   EXPECT_FALSE(depth.AreNone());
   EXPECT_FALSE(subject.AreNone());
 }

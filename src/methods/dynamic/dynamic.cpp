@@ -326,6 +326,23 @@ void Dynamic::FitShape(bool is_first, FrameFit& fit) {
   s.clock.Lap(TimedStep::kNormals);
 }
 
+// Of the last normal equations. A joint moves with all hinges and prismatic joints above it.
+std::vector<Matrix3<double>> Dynamic::JointUnitCovariances(
+    const FrameFit& fit, const std::vector<Vector3d>& joints) const {
+  const Session& s = *session_;
+  if (fit.iterations == 0 || !fit.solved) return {};
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(3 * kBoneCount, s.tree.joint_count());
+  for (int bone = 0; bone < kBoneCount; ++bone) {
+    for (const int k : s.tree.ChainOf(bone)) {
+      const Twist& twist = s.pose.twists[k];
+      motions.block<3, 1>(3 * bone, k) =
+          twist.head<3>().cross(joints[bone] - s.pose.twist_origin) + twist.tail<3>();
+    }
+  }
+  const PoseStepWeights weights{settings_.pose.damping, settings_.pose.default_pose_weight, 0.0};
+  return UnitCovariances(s.solver.Curvature(s.tree, s.equations, weights), motions);
+}
+
 TrackResult Dynamic::Result(const FrameFit& fit) {
   Session& s = *session_;
   TrackResult result;
@@ -340,6 +357,8 @@ TrackResult Dynamic::Result(const FrameFit& fit) {
                                                : Rigidd{});
   }
   result.joints = PosedJoints(s.skeleton, result.camera_from_rest);
+  if (settings_.uncertainty.IsAsked())
+    ReportUncertainty(JointUnitCovariances(fit, result.joints), settings_.uncertainty, result);
   result.iterations = fit.iterations;
   result.condition = fit.condition;
   for (int k = 0; k < kEnergyTermCount; ++k)

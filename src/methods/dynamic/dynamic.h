@@ -38,6 +38,8 @@ class Dynamic final : public Tracker {
   void IteratePose(int limit, FrameFit& fit);
   bool IsLost(const FrameFit& fit) const;
   void FitShape(bool is_first, FrameFit& fit);
+  std::vector<Matrix3<double>> JointUnitCovariances(
+      const FrameFit& fit, const std::vector<Vector3<double>>& joints) const;
   TrackResult Result(const FrameFit& fit);
   void ReportOutcome(const FrameFit& fit, TrackResult& result) const;
 

@@ -40,7 +40,7 @@ double PoseSolver::BuildSystem(const KinematicTree& tree, const PoseEquations& e
   step_ = equations.gradient;
   double default_pose_energy = 0.0;
   for (int k = 0; k < tree.joint_count(); ++k) {
-    const double prior = weights.default_pose_weight * tree.joints()[k].prior * moved_[k];
+    const double prior = PriorOf(tree, k, weights);
     default_pose_energy += prior * theta[k] * theta[k];
     system_(k, k) += weights.damping + prior;
     step_[k] += prior * theta[k];
@@ -51,6 +51,20 @@ double PoseSolver::BuildSystem(const KinematicTree& tree, const PoseEquations& e
     step_[k] = 0.0;
   }
   return default_pose_energy;
+}
+
+Eigen::MatrixXd PoseSolver::Curvature(const KinematicTree& tree, const PoseEquations& equations,
+                                      const PoseStepWeights& weights) const {
+  Eigen::MatrixXd curvature = equations.hessian;
+  for (int k = 0; k < tree.joint_count(); ++k)
+    curvature(k, k) += weights.damping + PriorOf(tree, k, weights);
+  return curvature;
+}
+
+// Of one joint: γD.
+double PoseSolver::PriorOf(const KinematicTree& tree, int joint,
+                           const PoseStepWeights& weights) const {
+  return weights.default_pose_weight * tree.joints()[joint].prior * moved_[joint];
 }
 
 // Turns the right-hand side into the step.

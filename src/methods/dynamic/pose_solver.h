@@ -37,6 +37,10 @@ class PoseSolver {
                 const std::vector<char>& may_move, const PoseStepWeights& weights,
                 Eigen::VectorXd& theta);
 
+  // The curvature of the last step's energy, frozen joints not held: JᵀJ + λI + γD.
+  Eigen::MatrixXd Curvature(const KinematicTree& tree, const PoseEquations& equations,
+                            const PoseStepWeights& weights) const;
+
   bool IsFrozen(int joint) const { return is_frozen_[joint] != 0; }  // in the last step
   // Vertices that a joint moves: its bones' weights, summed.
   double MovedVertices(int joint) const { return moved_[joint]; }
@@ -46,6 +50,7 @@ class PoseSolver {
                               const std::vector<char>& may_move, double freeze_below_share);
   double BuildSystem(const KinematicTree& tree, const PoseEquations& equations,
                      const PoseStepWeights& weights, const Eigen::VectorXd& theta);
+  double PriorOf(const KinematicTree& tree, int joint, const PoseStepWeights& weights) const;
   bool Solve(double& condition);
 
   std::vector<double> moved_, observed_;  // vertices, per joint

@@ -201,6 +201,8 @@ void Settings::Describe(Fields& f) {
     f.Section("start_search", start_search,
               {.meaning = "search for the first pose, or for a subject that is not tracked"});
   }
+  f.Section("uncertainty", uncertainty,
+            {.meaning = "covariances of the joints, from the normal equations"});
   f.Number("max_depth_m", max_depth_m,
            {.meaning = "pixels beyond are no measurement of the subject",
             .unit = "m",

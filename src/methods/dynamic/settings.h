@@ -6,6 +6,7 @@
 
 #include "config/settings.h"
 #include "tracking/area_watch.h"
+#include "tracking/joint_uncertainty.h"
 #include "tracking/start_search.h"
 
 namespace vitruvia::dynamic {
@@ -67,6 +68,7 @@ struct Settings {
   PlacementSettings placement;      // of start kRestPose
   PoseSearchSettings start_search;  // of start kSearch, and where areas are watched
   AreaWatchSettings watch;
+  UncertaintySettings uncertainty;
   double max_depth_m = 8.0;
   double lost_below = 0.3;
   int threads = 2;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/angles.h"
+#include "math/rotation.h"
 #include "tracking/visibility.h"
 
 namespace vitruvia::realtime_scape {
@@ -64,6 +65,14 @@ FitSummary PoseFitter::Fit(const Observation& observation, const PoseHistory& hi
                        view_.visible.size(), classification_.classes);
   fit.counts = classification_.counts;
   if (std::isfinite(equations_.energy())) fit.condition = solver_->EstimateCondition();
+  if (settings_.solver.watch_energy && fit.solved) {
+    fit.check = CheckSolution(equations_.hessian(), -equations_.gradient(), increment_);
+    clock_.Skip();  // no step of the algorithm
+  }
+  if (settings_.uncertainty.IsAsked()) {
+    fit.unit_covariances = JointUnitCovariances(fit.pose);
+    clock_.Lap(Step::kSolve);
+  }
   fit.times = clock_.times();
   return fit;
 }
@@ -167,6 +176,19 @@ double PoseFitter::EnergyRise(const BlockNormalEquations& before, const TermInpu
   AddEnergyTerms(after, equations_after_);
   clock_.Skip();  // no step of the algorithm
   return before.energy() > 0.0 ? equations_after_.energy() / before.energy() - 1.0 : 0.0;
+}
+
+// Rows are in units of length; joints move with their own bone alone.
+std::vector<Matrix3<double>> PoseFitter::JointUnitCovariances(const BodyPose& pose) const {
+  if (!std::isfinite(equations_.energy())) return {};
+  const std::vector<Vector3d> joints = PosedJoints(model_.skeleton, ToTransforms(model_, pose));
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(3 * kBoneCount, kBlockSize * kBoneCount);
+  for (int bone = 0; bone < kBoneCount; ++bone) {
+    auto block = motions.block<3, kBlockSize>(3 * bone, kBlockSize * bone);
+    block.leftCols<3>() = -Skew<double>(joints[bone] - pose[bone].center) / settings_.length_unit_m;
+    block.rightCols<3>().setIdentity();
+  }
+  return UnitCovariances(equations_.hessian(), motions);
 }
 
 // Line 12.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "geometry/mesh_rasterizer.h"
 #include "methods/realtime_scape/correspondences.h"
@@ -11,6 +12,7 @@
 #include "methods/realtime_scape/terms/free_space_term.h"
 #include "methods/realtime_scape/terms/joint_term.h"
 #include "solver/linear_solver.h"
+#include "solver/system_check.h"
 #include "tracking/agreement.h"
 #include "tracking/realtime_scape_steps.h"
 #include "tracking/step_clock.h"
@@ -26,6 +28,9 @@ struct FitSummary {
   Energies energies{};      // at the last linearisation
   double energy_rise = -1;  // see TrackResult
   double condition = -1;    // of the last normal equations; -1 where not estimated
+  // Of the last normal equations (tracking/joint_uncertainty.h); empty where not asked for.
+  std::vector<Matrix3<double>> unit_covariances;
+  std::optional<SystemCheck> check;  // of the last step, where energies are watched
   int iterations = 0;
   int inexact_steps = 0;   // that conjugate gradients did not solve to their tolerance
   bool converged = false;  // the stopping rule was met
@@ -79,6 +84,7 @@ class PoseFitter {
   Energies Assemble(const TermInput& input);
   Solution Solve(const BlockNormalEquations& equations);
   double EnergyRise(const BlockNormalEquations& before, const TermInput& after);
+  std::vector<Matrix3<double>> JointUnitCovariances(const BodyPose& pose) const;
   bool IsSmall(const PoseStep& step) const;
   bool IsWorthless(const Eigen::VectorXd& increment) const;
 

@@ -176,7 +176,8 @@ void SolverSettings::Describe(Fields& f) {
        .source = "keeps the system regular when nothing at all is seen"});
   f.Flag("watch_energy", watch_energy,
          {.meaning = "evaluates the energy a second time after each step, with the same "
-                     "correspondences, and reports the largest rise"});
+                     "correspondences, and reports the largest rise; holds each frame's last step "
+                     "against a slow solution of the same equations"});
 }
 
 void Settings::Describe(Fields& f) {
@@ -205,6 +206,8 @@ void Settings::Describe(Fields& f) {
   f.Section("limbs", limbs, {.meaning = "search for limbs that moved away from the model"});
   f.Section("recovery", recovery, {.meaning = "detection of a lost subject and relocalisation"});
   f.Section("watch", watch, {.meaning = "areas that model and frame do not account for"});
+  f.Section("uncertainty", uncertainty,
+            {.meaning = "covariances of the joints, from the normal equations"});
   f.Number(
       "lost_below", lost_below,
       {.meaning =

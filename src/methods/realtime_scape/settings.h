@@ -9,6 +9,7 @@
 #include "tracking/area_watch.h"
 #include "tracking/classification.h"
 #include "tracking/depth_noise.h"
+#include "tracking/joint_uncertainty.h"
 #include "tracking/placement.h"
 #include "tracking/relocalization_settings.h"
 #include "tracking/start_search.h"
@@ -166,6 +167,7 @@ struct Settings {
   LimbSettings limbs;
   RelocalizationSettings recovery;
   AreaWatchSettings watch;
+  UncertaintySettings uncertainty;
   double lost_below = 0.3;
   void Describe(Fields& fields);
 

@@ -174,6 +174,8 @@ TrackResult SubjectTracker::Result(FitSummary fit, Ending ending) const {
   result.vertices = std::move(fit.surface.vertices);
   result.camera_from_rest = std::move(fit.surface.camera_from_rest);
   result.joints = PosedJoints(model_.skeleton, result.camera_from_rest);
+  if (settings_.uncertainty.IsAsked())
+    ReportUncertainty(fit.unit_covariances, settings_.uncertainty, result);
   result.iterations = fit.iterations;
   for (std::size_t k = 0; k < kEnergyTermCount; ++k) {
     result.energies.push_back({Name(static_cast<EnergyTerm>(k)), fit.energies[k]});
@@ -181,6 +183,10 @@ TrackResult SubjectTracker::Result(FitSummary fit, Ending ending) const {
   result.step_ms = fit.times.Named();
   result.energy_rise = fit.energy_rise;
   result.condition = fit.condition;
+  if (fit.check) {
+    result.weak_directions = fit.check->weak_directions;
+    result.agreeing_digits = fit.check->agreeing_digits;
+  }
   return result;
 }
 
