@@ -122,6 +122,30 @@ TEST(Registration, RefusesWhatIsNoPerson) {
   EXPECT_THAT(registrar.Find(in_millimetres).problem, HasSubstr("in metres?"));
 }
 
+// Of frames from two sides one shape, and nearer to the truth than that of the first frame alone.
+TEST(Registration, FitsOneShapeToSeveralFrames) {
+  const Matrix3<double> facing = Vector3d(1.0, -1.0, -1.0).asDiagonal();
+  const Posed left = SomebodyStriding(facing, {0.1, 0.1, 2.6});
+  const Posed front = SomebodyStriding(
+      facing * ExpSo3<double>({0.0, -80.0 * kRadiansPerDegree, 0.0}), {0.0, 0.1, 2.4});
+  const PinholeCamera camera;
+  std::vector<DepthImage> frames;
+  for (const Posed* posed : {&left, &front}) {
+    ZBuffer zbuffer(camera);
+    frames.push_back(zbuffer.Render(posed->surface.vertices, posed->surface.triangles));
+  }
+  Registrar registrar(SmallSpace(), {}, QuickSettings());
+  const std::vector<Registration> found = registrar.FindSame(frames, camera);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].problem, "");
+  EXPECT_EQ(found[1].problem, "");
+  EXPECT_EQ(found[0].state.theta, found[1].state.theta);
+  EXPECT_LT(MeanJointError(registrar, found[0], left), 0.04);
+  EXPECT_LT(MeanJointError(registrar, found[1], front), 0.04);
+  EXPECT_NEAR(registrar.Body(found[0].state.theta).attributes.height_m,
+              left.body.attributes.height_m, 0.03);
+}
+
 TEST(Registration, RefusesAnEmptyFrame) {
   const PinholeCamera camera;
   Registrar registrar(SmallSpace(), {}, QuickSettings());
