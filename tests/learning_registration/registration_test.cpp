@@ -65,10 +65,19 @@ double MeanJointError(const Registrar& registrar, const Registration& found, con
   return sum / static_cast<double>(joints.size());
 }
 
+// The search takes most of these tests' time; several look at its result.
+struct FoundOnSurface {
+  Posed truth = SomebodyStriding(Matrix3<double>::Identity(), {0.4, 1.0, 0.2});
+  Registrar registrar{SmallSpace(), {}, QuickSettings()};
+  Registration found = registrar.Find(truth.surface);
+};
+FoundOnSurface& Found() {
+  static FoundOnSurface found;
+  return found;
+}
+
 TEST(Registration, FindsPoseAndShapeOfSomebodyOfTheSpace) {
-  const Posed truth = SomebodyStriding(Matrix3<double>::Identity(), {0.4, 1.0, 0.2});
-  Registrar registrar(SmallSpace(), {}, QuickSettings());
-  const Registration found = registrar.Find(truth.surface);
+  const auto& [truth, registrar, found] = Found();
   EXPECT_EQ(found.problem, "");
   EXPECT_LT(MeanJointError(registrar, found, truth), 0.012);
   EXPECT_LT(found.distance.mean_m(), 0.005);
@@ -78,9 +87,7 @@ TEST(Registration, FindsPoseAndShapeOfSomebodyOfTheSpace) {
 }
 
 TEST(Registration, FollowsToTheNextSurface) {
-  const Posed truth = SomebodyStriding(Matrix3<double>::Identity(), {0.4, 1.0, 0.2});
-  Registrar registrar(SmallSpace(), {}, QuickSettings());
-  const Registration first = registrar.Find(truth.surface);
+  auto& [truth, registrar, first] = Found();
   Posed moved = truth;
   for (Vector3f& v : moved.surface.vertices) v += Vector3f(0.06f, 0.0f, -0.05f);
   for (Vector3d& j : moved.joints) j += Vector3d(0.06, 0.0, -0.05);
