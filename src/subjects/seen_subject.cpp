@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "core/build_info.h"
 #include "core/error.h"
-#include "core/progress.h"
 #include "geometry/zbuffer.h"
 #include "learning/shape/tracking_template.h"
 #include "math/statistics.h"
