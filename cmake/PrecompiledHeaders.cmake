@@ -1,5 +1,5 @@
 # Third-party and standard headers that most files include, compiled once for each set of flags. Files
-# include what they need all the same: the presets debug and sanitize build without this.
+# include what they need all the same: the presets debug and tidy build without this.
 #
 # optimise_outside_frames(TARGET): the flags of code that works on no pixels and no vertices.
 function(optimise_outside_frames target)

@@ -53,10 +53,10 @@ void AddErrors(vtkPolyData& surface, const std::vector<Vector3f>& estimate,
 
 void WriteSurface(const fs::path& file, vtkPolyData& surface) {
   vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetFileName(file.c_str());
   writer->SetInputData(&surface);
-  if (writer->Write() == 0 || writer->GetErrorCode() != 0)
-    throw RunError(fmt::format("{}: cannot be written (disk full?)", file.string()));
+  writer->WriteToOutputStringOn();
+  writer->Write();
+  WriteWholeFile(file, writer->GetOutputString());
 }
 
 std::string FrameFileName(const char* surface, int frame) {

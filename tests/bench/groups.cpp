@@ -7,6 +7,7 @@ namespace vitruvia::bench {
 std::vector<Row> Baselines();
 std::vector<Row> BaselineModels();
 std::vector<Row> FitShape();
+std::vector<Row> Frames();
 std::vector<Row> Growth();
 std::vector<Row> ImportDepth();
 std::vector<Row> LearnWeights();
@@ -18,6 +19,7 @@ std::span<const Group> Groups() {
       Group{"baselines", Baselines},
       Group{"baseline_models", BaselineModels},
       Group{"fit_shape", FitShape},
+      Group{"frames", Frames},
       Group{"growth", Growth},
       Group{"import_depth", ImportDepth},
       Group{"learn_weights", LearnWeights},

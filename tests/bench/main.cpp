@@ -1,7 +1,10 @@
-// vitruvia_bench: runs the benchmarks and writes their results to summary.json (see PrintHelp).
+// vitruvia_bench: runs the benchmarks and writes their results, or compares two of them (--help).
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "bench/bench.h"
 #include "config/json_settings.h"
@@ -14,54 +17,39 @@ namespace vitruvia::bench {
 namespace {
 namespace fs = std::filesystem;
 
-std::vector<Group> Chosen(std::span<char*> names) {
-  std::vector<Group> chosen;
-  std::vector<std::string> known;
-  for (const Group& group : Groups()) {
-    known.emplace_back(group.name);
-    const bool named = std::find(names.begin(), names.end(), known.back()) != names.end();
-    if (names.empty() || named) chosen.push_back(group);
-  }
-  for (const char* name : names) {
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw ConfigError(fmt::format("no group of benchmarks is called '{}'; there are: {}", name,
-                                    fmt::join(known, ", ")));
-    }
-  }
-  return chosen;
+std::vector<std::string> GroupNames() {
+  std::vector<std::string> names;
+  for (const Group& group : Groups()) names.emplace_back(group.name);
+  return names;
 }
 
-constexpr const char* kDefaultFolder = "out/bench";
-
-void PrintHelp() {
-  fmt::print(
-      "vitruvia_bench [FOLDER [GROUP...]]\n\n"
-      "Runs benchmarks, prints a line for each, and writes FOLDER/summary.json, whole or not at "
-      "all.\nFOLDER: {} if it is not given. GROUP: all if none is named; there are:\n",
-      kDefaultFolder);
-  for (const Group& group : Groups()) fmt::print("  {}\n", group.name);
-  fmt::print("Exit codes: 0 success, 2 bad arguments, 4 not writable, 1 internal error.\n");
+std::vector<Row> RowsOf(const Group& group) {
+  const Stopwatch watch;
+  std::vector<Row> rows = group.run();
+  for (const Row& row : rows) {
+    const std::string quartiles =
+        std::isfinite(row.low) ? fmt::format("  [{:.4g}, {:.4g}]", row.low, row.high) : "";
+    fmt::print("{:<48} {:>12.6g} {:<4}{}\n", row.name, row.value, row.unit, quartiles);
+    if (!std::isfinite(row.value))
+      throw RunError(fmt::format("{}: {} is not finite", group.name, row.name));
+  }
+  fmt::print("  ({}: {:.1f} s)\n", group.name, watch.ElapsedMs() / 1000.0);
+  std::fflush(stdout);
+  return rows;
 }
 
-void Run(std::span<char*> arguments) {
-  for (const std::string_view argument : arguments) {
-    if (argument == "-h" || argument == "--help") return PrintHelp();
-    if (argument.starts_with('-'))
-      throw ConfigError(fmt::format("{}: no such option; --help says what there is", argument));
-  }
-  const fs::path folder = arguments.empty() ? kDefaultFolder : fs::path(arguments[0]);
-  const std::vector<Group> groups = Chosen(arguments.empty() ? arguments : arguments.subspan(1));
+Json Stored(const Row& row) {
+  Json json = {{"name", row.name}, {"value", row.value}, {"unit", row.unit}};
+  if (std::isfinite(row.low)) json["quartiles"] = {row.low, row.high};
+  return json;
+}
+
+void RunGroups(const fs::path& folder, const std::vector<std::string>& chosen) {
   Json rows = Json::array();
-  for (const Group& group : groups) {
-    const Stopwatch watch;
-    for (const Row& row : group.run()) {
-      fmt::print("{:<48} {:>14.6g} {}\n", row.name, row.value, row.unit);
-      if (!std::isfinite(row.value)) {
-        throw RunError(fmt::format("{}: {} is not finite", group.name, row.name));
-      }
-      rows.push_back({{"name", row.name}, {"value", row.value}, {"unit", row.unit}});
-    }
-    fmt::print("  ({}: {:.1f} s)\n", group.name, watch.ElapsedMs() / 1000.0);
+  for (const Group& group : Groups()) {
+    if (!chosen.empty() && std::find(chosen.begin(), chosen.end(), group.name) == chosen.end())
+      continue;
+    for (const Row& row : RowsOf(group)) rows.push_back(Stored(row));
   }
   const BuildInfo& build = GetBuildInfo();
   const Json summary = {{"commit", build.commit},
@@ -73,31 +61,41 @@ void Run(std::span<char*> arguments) {
   fmt::print("{}\n", (folder / "summary.json").string());
 }
 
-}  // namespace
-
-double Median(std::vector<double> values) {
-  Require(!values.empty(), "Median: no values");
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-double MedianMs(int runs, const std::function<void()>& work) {
-  std::vector<double> times_ms;
-  for (int run = 0; run < runs; ++run) {
-    const Stopwatch watch;
-    work();
-    times_ms.push_back(watch.ElapsedMs());
+int Main(int argc, char** argv) {
+  CLI::App app(
+      "Runs benchmarks, prints a line for each with its quartiles, and writes "
+      "FOLDER/summary.json, whole or not at all; or compares two such files.",
+      "vitruvia_bench");
+  app.footer("Exit codes: 0 success, 2 bad arguments, 3 a damaged file, 4 not writable.");
+  fs::path folder = "out/bench";
+  std::vector<std::string> chosen;
+  std::vector<fs::path> compared;
+  app.add_option("FOLDER", folder, "where the results go")->capture_default_str();
+  app.add_option("GROUP", chosen, "groups of benchmarks; all if none is named")
+      ->check(CLI::IsMember(GroupNames()));
+  app.add_option("--compare", compared, "two summary.json, measured in turn on one machine")
+      ->expected(2)
+      ->type_name("BEFORE AFTER");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const bool is_help = app.exit(error) == 0;
+    return is_help ? 0 : static_cast<int>(ExitCode::kBadConfiguration);
   }
-  return Median(std::move(times_ms));
+  if (compared.empty()) {
+    RunGroups(folder, chosen);
+  } else {
+    fmt::print("{}", Comparison(compared[0], compared[1]));
+  }
+  return 0;
 }
 
+}  // namespace
 }  // namespace vitruvia::bench
 
 int main(int argc, char** argv) {
   try {
-    vitruvia::bench::Run(std::span(argv, static_cast<std::size_t>(argc)).subspan(1));
-    return 0;
+    return vitruvia::bench::Main(argc, argv);
   } catch (const vitruvia::Error& error) {
     fmt::print(stderr, "vitruvia_bench: {}\n", error.what());
     return static_cast<int>(error.code());

@@ -47,7 +47,7 @@ std::vector<Row> Scan() {
   }
   const Stopwatch watch;
   const ScanSurface surface = fusion.Surface();
-  return {{"scan_fuse_ms_per_frame", Median(frame_ms), "ms"},
+  return {Spread("scan_fuse_ms_per_frame", frame_ms, "ms"),
           {"scan_extract_ms", watch.ElapsedMs(), "ms"},
           {"scan_to_truth_mm", MeanDistanceMm(surface.mesh.vertices, recorder.surface()), "mm"}};
 }
