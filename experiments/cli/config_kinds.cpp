@@ -19,6 +19,7 @@
 #include "subjects/learned_regression.h"
 #include "subjects/rig.h"
 #include "subjects/scan.h"
+#include "subjects/seen_subject.h"
 #include "synth/motions/keyframes_file.h"
 #include "synth/sensor/joint_stand_in.h"
 #include "tracking/joint_observations.h"
@@ -62,6 +63,8 @@ const std::vector<ConfigKind>& ConfigKinds() {
         {"fit", "how a shape is fitted to a scan", VisitDefaults<IntrinsicShapeSettings>, nullptr},
         {"subject", "a subject that is scanned and fitted", VisitSubjectFile, nullptr},
         {"rig", "how meshes are made a subject", VisitDefaults<RigSettings>, nullptr},
+        {"seen_subject", "how depth frames are made a subject", VisitDefaults<SeenSubjectSettings>,
+         nullptr},
         {"skeleton", "a kinematic skeleton", VisitSkeletonFile, nullptr},
         {"import_meshes", "mesh files made into a sequence", VisitDefaults<MeshSequenceSettings>,
          nullptr},

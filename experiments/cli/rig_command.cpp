@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "config/build_cache.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/message.h"
@@ -67,6 +68,20 @@ void Print(const Rig& rig) {
       100.0 * rig.cost->volume_change, rig.cost->folded_triangles);
 }
 
+// All that registrations depend on.
+Json InputsOf(const RigArguments& a, const RigSettings& settings) {
+  const auto known = [](const std::optional<double>& value) {
+    return value ? Json(*value) : Json();
+  };
+  return {{"meshes_folder", a.meshes.string()},
+          {"unit_m", a.unit_m},
+          {"space_folder", a.space.string()},
+          {"height_m", known(a.person.height_m)},
+          {"weight_kg", known(a.person.weight_kg)},
+          {"sex", a.person.sex},
+          {"registration", WriteSettings(settings.registration)}};
+}
+
 void RigToFolder(const RigArguments& a) {
   const auto settings =
       a.settings.empty() ? RigSettings() : ReadSettingsFile<RigSettings>(a.settings);
@@ -74,11 +89,17 @@ void RigToFolder(const RigArguments& a) {
   Registrar registrar(space, a.person.Known(), settings.registration);
   StagedFolder folder(a.output, "weights.bin");
   const std::vector<TriangleMesh> meshes = ReadMeshes(a.meshes, a.unit_m);
-  const Rig rig = RigMeshes(meshes, registrar, settings);
+  RegistrationLog log(a.output.string() + ".registrations", CacheKey(InputsOf(a, settings)));
+  if (!log.registrations().empty()) {
+    PrintMessage("{} of {} frames were registered before and are taken over\n",
+                 log.registrations().size(), meshes.size());
+  }
+  const Rig rig = RigMeshes(meshes, registrar, settings, log);
   WriteBodyModel(folder.path(), rig.subject);
   WriteWholeFile(folder.path() / "rig.json", RigRecord(rig, settings).dump(1) + "\n");
   WriteSheet(rig, meshes, folder.path() / "rig");
   folder.Commit();
+  log.Remove();
   Print(rig);
   fmt::print("{}\n", a.output.string());
 }

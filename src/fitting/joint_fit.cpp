@@ -67,7 +67,6 @@ BodyState FittedToJoints(const ShapedBody& body, BodyState start, const KnownJoi
                          double angle_deviation_deg) {
   Require(!known.joints.empty(), "FittedToJoints: no joints");
   constexpr int kIterations = 10;
-  constexpr double kLongestStep = 0.6;  // rad and 0.6 m
   const double weight = 1.0 / (known.deviation_m * known.deviation_m);
   const double stiffness = 1.0 / std::pow(angle_deviation_deg * kRadiansPerDegree, 2);
   const AngleVector expected_deg = start.angles_deg;
@@ -82,10 +81,7 @@ BodyState FittedToJoints(const ShapedBody& body, BodyState start, const KnownJoi
     hessian.diagonal().tail<kAngleCount>().array() += stiffness;
     gradient.tail<kAngleCount>() +=
         stiffness * kRadiansPerDegree * (expected_deg - state.angles_deg);
-    Eigen::VectorXd step = hessian.ldlt().solve(gradient);
-    const double longest = step.cwiseAbs().maxCoeff();
-    if (longest > kLongestStep) step *= kLongestStep / longest;
-    state = Moved(std::move(state), step);
+    state = Moved(std::move(state), NoLongerThanLinear(hessian.ldlt().solve(gradient)));
   }
   return state;
 }

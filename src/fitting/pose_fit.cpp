@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <Eigen/Cholesky>
+
 #include "fitting/state_step.h"
 #include "math/angles.h"
 
@@ -62,43 +64,60 @@ void PoseFit::Assemble(const FitStage& stage, double robust_m, const FitPriors& 
   if (filled > 0) flush();
 }
 
-Eigen::VectorXd PoseFit::Step(const BodyState& state, const FitStage& stage,
-                              const FitPriors& priors) {
-  const int columns = posed_.parameter_count();
-  Eigen::MatrixXd hessian = hessian_.cast<double>().selfadjointView<Eigen::Lower>();
-  Eigen::VectorXd gradient = gradient_.cast<double>();
+std::optional<PoseFit::Equations> PoseFit::EquationsAt(FitTarget& target, const BodyState& state,
+                                                       double cutoff_m, const FitStage& stage,
+                                                       const FitPriors& priors) {
+  posed_.Set(state);
+  target.FindPairs(posed_, cutoff_m, pairs_);
+  if (pairs_.empty()) return std::nullopt;
+  posed_.Differentiate();
+  Assemble(stage, 0.5 * cutoff_m, priors);
+  Equations equations{hessian_.cast<double>().selfadjointView<Eigen::Lower>(),
+                      gradient_.cast<double>()};
   constexpr double kDamping = 1e-3;
-  hessian.diagonal().array() += kDamping;
+  equations.hessian.diagonal().array() += kDamping;
   const double stiffness = 1.0 / std::pow(priors.angle_deviation_deg * kRadiansPerDegree, 2);
   for (int a = 0; a < kAngleCount; ++a) {
     const int at = PosedBody::kAngles + a;
-    hessian(at, at) += stiffness;
-    gradient[at] += stiffness * kRadiansPerDegree * (state.angles_deg[a] - priors.angles_deg[a]);
+    equations.hessian(at, at) += stiffness;
+    equations.gradient[at] +=
+        stiffness * kRadiansPerDegree * (state.angles_deg[a] - priors.angles_deg[a]);
   }
-  for (int k = PosedBody::kShape; k < columns; ++k) {
-    hessian(k, k) += 1.0;
-    gradient[k] += state.theta[k - PosedBody::kShape] - priors.theta[k - PosedBody::kShape];
-  }
-  return SolveWithinLimits(hessian, gradient, state.angles_deg,
-                           stage.moves_shape ? columns : int{PosedBody::kShape});
+  return equations;
 }
 
 BodyState PoseFit::Run(FitTarget& target, BodyState state, const FitStage& stage,
                        const FitPriors& priors) {
-  constexpr double kLongestStep = 0.6;  // rad and 0.6 m: linearisation holds no farther
+  const int columns = posed_.parameter_count();
   for (int i = 0; i < stage.iterations; ++i) {
-    const double cutoff_m = Cutoff(stage, i);
-    posed_.Set(state);
-    target.FindPairs(posed_, cutoff_m, pairs_);
-    if (pairs_.empty()) break;
-    posed_.Differentiate();
-    Assemble(stage, 0.5 * cutoff_m, priors);
-    Eigen::VectorXd step = Step(state, stage, priors);
-    const double longest = step.head(PosedBody::kShape).cwiseAbs().maxCoeff();
-    if (longest > kLongestStep) step *= kLongestStep / longest;
-    state = Moved(std::move(state), step);
+    std::optional<Equations> equations =
+        EquationsAt(target, state, Cutoff(stage, i), stage, priors);
+    if (!equations) break;
+    for (int k = PosedBody::kShape; k < columns; ++k) {
+      equations->hessian(k, k) += 1.0;
+      equations->gradient[k] +=
+          state.theta[k - PosedBody::kShape] - priors.theta[k - PosedBody::kShape];
+    }
+    const Eigen::VectorXd step =
+        SolveWithinLimits(equations->hessian, equations->gradient, state.angles_deg,
+                          stage.moves_shape ? columns : int{PosedBody::kShape});
+    state = Moved(std::move(state), NoLongerThanLinear(step));
   }
   return state;
+}
+
+ShapeEquations PoseFit::EquationsOfShape(FitTarget& target, const BodyState& state,
+                                         const FitStage& stage, const FitPriors& priors) {
+  constexpr int kPose = PosedBody::kShape;
+  const int shape = posed_.body().shape_count();
+  const auto equations = EquationsAt(target, state, stage.last_cutoff_m, stage, priors);
+  if (!equations) return {Eigen::MatrixXd::Zero(shape, shape), Eigen::VectorXd::Zero(shape)};
+  const Eigen::MatrixXd& h = equations->hessian;
+  const Eigen::LDLT<Eigen::MatrixXd> pose(h.topLeftCorner(kPose, kPose));
+  const Eigen::MatrixXd across = h.topRightCorner(kPose, shape);
+  return {h.bottomRightCorner(shape, shape) - across.transpose() * pose.solve(across),
+          equations->gradient.tail(shape) -
+              across.transpose() * pose.solve(equations->gradient.head(kPose))};
 }
 
 MutualDistance PoseFit::Measure(FitTarget& target, const BodyState& state, const NearFar& limits) {

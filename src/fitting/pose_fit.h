@@ -5,6 +5,8 @@
 // a limit is held there, and the others are solved for again), and priors on angles and shape.
 #pragma once
 
+#include <optional>
+
 #include <Eigen/Core>
 
 #include "fitting/fit_target.h"
@@ -27,6 +29,13 @@ struct FitPriors {
   double point_count = 300.0;       // independent points that all pairs together stand for
 };
 
+// Normal equations of the shape alone, at a state: what the pairs and the pose's prior say of it
+// once pose and place follow it freely. Hx = −g for a step x; the shape's own prior is not in them.
+struct ShapeEquations {
+  Eigen::MatrixXd hessian;
+  Eigen::VectorXd gradient;
+};
+
 class PoseFit {
  public:
   // The body must outlive the fit.
@@ -35,13 +44,22 @@ class PoseFit {
   const ShapedBody& body() const { return posed_.body(); }
 
   BodyState Run(FitTarget& target, BodyState start, const FitStage& stage, const FitPriors& priors);
+  // With pairs as in the last iteration of the stage.
+  ShapeEquations EquationsOfShape(FitTarget& target, const BodyState& state, const FitStage& stage,
+                                  const FitPriors& priors);
   MutualDistance Measure(FitTarget& target, const BodyState& state, const NearFar& limits);
   // The state moved so that what is visible of the body has its centroid on the target's.
   BodyState Centered(FitTarget& target, BodyState state);
 
  private:
+  struct Equations {
+    Eigen::MatrixXd hessian;
+    Eigen::VectorXd gradient;
+  };
   void Assemble(const FitStage& stage, double robust_m, const FitPriors& priors);
-  Eigen::VectorXd Step(const BodyState& state, const FitStage& stage, const FitPriors& priors);
+  // Of the pairs within the cutoff and the priors on the angles; nothing if there are no pairs.
+  std::optional<Equations> EquationsAt(FitTarget& target, const BodyState& state, double cutoff_m,
+                                       const FitStage& stage, const FitPriors& priors);
 
   PosedBody posed_;
   std::vector<FitPair> pairs_;

@@ -56,6 +56,13 @@ Eigen::VectorXd SolveWithinLimits(const Eigen::MatrixXd& hessian, const Eigen::V
   return step;
 }
 
+Eigen::VectorXd NoLongerThanLinear(Eigen::VectorXd step) {
+  constexpr double kLongest = 0.6;  // rad, m
+  const double longest = step.head(PosedBody::kShape).cwiseAbs().maxCoeff();
+  if (longest > kLongest) step *= kLongest / longest;
+  return step;
+}
+
 BodyState Moved(BodyState state, const Eigen::VectorXd& step) {
   state.rotation = ExpSo3<double>(step.segment<3>(PosedBody::kRotation)) * state.rotation;
   state.pelvis_position += step.segment<3>(PosedBody::kPosition);

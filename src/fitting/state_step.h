@@ -11,6 +11,10 @@ namespace vitruvia {
 Eigen::VectorXd SolveWithinLimits(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient,
                                   const AngleVector& angles_deg, int free_count);
 
+// A step of pose, place and perhaps shape, shortened so that no angle moves by more than 0.6 rad
+// and nothing by more than 0.6 m: linearisation holds no farther.
+Eigen::VectorXd NoLongerThanLinear(Eigen::VectorXd step);
+
 // The state moved by a step in the parameters of PosedBody, of which the shape may be left out; its
 // angles stay within their limits.
 BodyState Moved(BodyState state, const Eigen::VectorXd& step);

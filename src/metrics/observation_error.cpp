@@ -6,15 +6,12 @@
 
 #include "core/absent.h"
 #include "geometry/point_cloud.h"
+#include "math/share.h"
 #include "metrics/reconstruction_error.h"
 #include "metrics/vertex_error.h"
 
 namespace vitruvia {
 namespace {
-
-double Share(long part, long whole) {
-  return whole == 0 ? kAbsent : static_cast<double>(part) / static_cast<double>(whole);
-}
 
 // Every n-th pixel of rows and columns, so that about so many points remain.
 int StrideFor(const DepthImage& depth, int most_points) {
@@ -35,8 +32,8 @@ void CompareImages(const DepthImage& model, const DepthImage& person, const Dept
     ++measured_behind;
     in_front += scene.pixels()[i] - model.pixels()[i] > kUnexplainedAbove_m ? 1 : 0;
   }
-  error.silhouette_overlap = Share(both, either);
-  error.model_in_front = Share(in_front, measured_behind);
+  error.silhouette_overlap = ShareOr(both, either, kAbsent);
+  error.model_in_front = ShareOr(in_front, measured_behind, kAbsent);
 }
 
 }  // namespace
@@ -63,9 +60,9 @@ ObservationError CompareWithObservation(const TriangleMesh& surface, const Depth
   }
   error.model_to_points_m = DistancesToPoints(seen, all.points);
   error.points_unexplained =
-      Share(std::count_if(error.points_to_model_m.begin(), error.points_to_model_m.end(),
-                          [](double d) { return d > kUnexplainedAbove_m; }),
-            static_cast<long>(error.points_to_model_m.size()));
+      ShareOr(std::count_if(error.points_to_model_m.begin(), error.points_to_model_m.end(),
+                            [](double d) { return d > kUnexplainedAbove_m; }),
+              error.points_to_model_m.size(), kAbsent);
   return error;
 }
 

@@ -239,17 +239,23 @@ BodyModel Subject(const TriangleMesh& rest, SkinWeights weights, const BodyModel
 }
 
 // The body on every frame, the first one found anywhere, the others from the one before.
-Rig Registered(const std::vector<TriangleMesh>& frames, Registrar& registrar) {
+Rig Registered(const std::vector<TriangleMesh>& frames, Registrar& registrar,
+               RegistrationLog& log) {
   Rig rig;
   Progress progress("register", static_cast<int>(frames.size()));
   for (std::size_t f = 0; f < frames.size(); ++f) {
-    rig.registrations.push_back(f == 0
+    if (f == log.registrations().size()) {
+      const Registration next = f == 0
                                     ? registrar.Find(frames[f])
-                                    : registrar.Follow(frames[f], rig.registrations.back().state));
-    const Registration& registration = rig.registrations.back();
-    if (!registration.problem.empty()) {
-      throw DataError(fmt::format("rig: frame {}: {}", f, registration.problem));
+                                    : registrar.Follow(frames[f], log.registrations().back().state);
+      if (!next.problem.empty()) {
+        log.Remove();
+        throw DataError(fmt::format("rig: frame {}: {}", f, next.problem));
+      }
+      log.Append(next);
     }
+    rig.registrations.push_back(log.registrations()[f]);
+    const Registration& registration = rig.registrations.back();
     if (registration.distance.mean_m() <
         rig.registrations[static_cast<std::size_t>(rig.reference)].distance.mean_m()) {
       rig.reference = static_cast<int>(f);
@@ -346,10 +352,10 @@ void RigSettings::Describe(Fields& f) {
 }
 
 Rig RigMeshes(const std::vector<TriangleMesh>& frames, Registrar& registrar,
-              const RigSettings& settings) {
+              const RigSettings& settings, RegistrationLog& log) {
   Require(!frames.empty(), "RigMeshes: no frames");
   if (settings.surface == RigSurface::kMesh) RequireOneClosedSurface(frames);
-  Rig rig = Registered(frames, registrar);
+  Rig rig = Registered(frames, registrar, log);
   if (settings.surface == RigSurface::kModel) {
     rig.subject = OnTrackingMesh(rig.model, MakeTrackingTemplate(rig.model.rest));
     rig.subject.name = "rigged";

@@ -8,6 +8,7 @@
 #include "config/json_settings.h"
 #include "learning/registration/registration.h"
 #include "learning/skinning/settings.h"
+#include "subjects/registration_log.h"
 
 namespace vitruvia {
 
@@ -53,9 +54,10 @@ struct Rig {
 // carried over from the registered body and smoothed, and the T-pose follows by inverse skinning;
 // of several frames weights and bone transforms are then learnt from them (paper A, eqs. 2–5), and
 // the T-pose is that which they all agree on best. DataError naming the frame if one is no person,
-// is not closed, or has other triangles than the first.
+// is not closed, or has other triangles than the first. Frames whose registration the log has are
+// not registered again; the others' are added to it.
 Rig RigMeshes(const std::vector<TriangleMesh>& frames, Registrar& registrar,
-              const RigSettings& settings);
+              const RigSettings& settings, RegistrationLog& log);
 
 Json RigRecord(const Rig& rig, const RigSettings& settings);
 

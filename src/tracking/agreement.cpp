@@ -1,13 +1,8 @@
 #include "tracking/agreement.h"
 
+#include "math/share.h"
+
 namespace vitruvia {
-namespace {
-
-double Share(std::size_t part, std::size_t whole) {
-  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
-}
-
-}  // namespace
 
 double Agreement::presence() const {
   constexpr double kEnoughEvaluated = 0.1;
@@ -18,8 +13,8 @@ Agreement MeasureAgreement(std::size_t points, std::size_t unexplained, std::siz
                            const VertexClasses& classes) {
   const std::size_t confirmed = classes.near_surface.size();
   const std::size_t evaluated = confirmed + classes.elsewhere.size();
-  return {Share(points - unexplained, points), Share(confirmed, evaluated),
-          Share(evaluated, visible)};
+  return {ShareOr(points - unexplained, points, 0.0), ShareOr(confirmed, evaluated, 0.0),
+          ShareOr(evaluated, visible, 0.0)};
 }
 
 }  // namespace vitruvia

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "math/share.h"
 #include "math/statistics.h"
 #include "verification/depth_changes.h"
 #include "verification/limits.h"
@@ -14,10 +15,6 @@ namespace {
 using namespace verification_limits;
 
 constexpr long kRatioEvery = 7;  // of the pixels that both have
-
-double Share(long part, long whole) {
-  return static_cast<double>(part) / static_cast<double>(whole);
-}
 
 // Both see nothing there, or the same surface.
 bool IsSame(float a, float b) {
@@ -47,13 +44,10 @@ Outline OutlineOf(const DepthImage& depth) {
 
 }  // namespace
 
-double DepthAgreement::AgreeingShare() const { return both == 0 ? 0.0 : Share(agreeing, both); }
-double DepthAgreement::CoveredShare() const { return rendered == 0 ? 1.0 : Share(both, rendered); }
-double DepthAgreement::Silhouette() const {
-  const long either = rendered + measured - both;
-  return either == 0 ? 1.0 : Share(both, either);
-}
-double DepthAgreement::Score() const { return rendered == 0 ? 0.0 : Share(agreeing, rendered); }
+double DepthAgreement::AgreeingShare() const { return ShareOr(agreeing, both, 0.0); }
+double DepthAgreement::CoveredShare() const { return ShareOr(both, rendered, 1.0); }
+double DepthAgreement::Silhouette() const { return ShareOr(both, rendered + measured - both, 1.0); }
+double DepthAgreement::Score() const { return ShareOr(agreeing, rendered, 0.0); }
 double DepthAgreement::DepthRatio() const { return ratios.empty() ? 1.0 : Quantile(ratios, 0.5); }
 
 DepthAgreement Compare(const DepthImage& measured, const DepthImage& rendered) {

@@ -65,10 +65,19 @@ double MeanJointError(const Registrar& registrar, const Registration& found, con
   return sum / static_cast<double>(joints.size());
 }
 
+// The search takes most of these tests' time; several look at its result.
+struct FoundOnSurface {
+  Posed truth = SomebodyStriding(Matrix3<double>::Identity(), {0.4, 1.0, 0.2});
+  Registrar registrar{SmallSpace(), {}, QuickSettings()};
+  Registration found = registrar.Find(truth.surface);
+};
+FoundOnSurface& Found() {
+  static FoundOnSurface found;
+  return found;
+}
+
 TEST(Registration, FindsPoseAndShapeOfSomebodyOfTheSpace) {
-  const Posed truth = SomebodyStriding(Matrix3<double>::Identity(), {0.4, 1.0, 0.2});
-  Registrar registrar(SmallSpace(), {}, QuickSettings());
-  const Registration found = registrar.Find(truth.surface);
+  const auto& [truth, registrar, found] = Found();
   EXPECT_EQ(found.problem, "");
   EXPECT_LT(MeanJointError(registrar, found, truth), 0.012);
   EXPECT_LT(found.distance.mean_m(), 0.005);
@@ -78,9 +87,7 @@ TEST(Registration, FindsPoseAndShapeOfSomebodyOfTheSpace) {
 }
 
 TEST(Registration, FollowsToTheNextSurface) {
-  const Posed truth = SomebodyStriding(Matrix3<double>::Identity(), {0.4, 1.0, 0.2});
-  Registrar registrar(SmallSpace(), {}, QuickSettings());
-  const Registration first = registrar.Find(truth.surface);
+  auto& [truth, registrar, first] = Found();
   Posed moved = truth;
   for (Vector3f& v : moved.surface.vertices) v += Vector3f(0.06f, 0.0f, -0.05f);
   for (Vector3d& j : moved.joints) j += Vector3d(0.06, 0.0, -0.05);
@@ -120,6 +127,30 @@ TEST(Registration, RefusesWhatIsNoPerson) {
   TriangleMesh in_millimetres = person.surface;
   for (Vector3f& v : in_millimetres.vertices) v *= 1000.0f;
   EXPECT_THAT(registrar.Find(in_millimetres).problem, HasSubstr("in metres?"));
+}
+
+// Of frames from two sides one shape, and nearer to the truth than that of the first frame alone.
+TEST(Registration, FitsOneShapeToSeveralFrames) {
+  const Matrix3<double> facing = Vector3d(1.0, -1.0, -1.0).asDiagonal();
+  const Posed left = SomebodyStriding(facing, {0.1, 0.1, 2.6});
+  const Posed front = SomebodyStriding(
+      facing * ExpSo3<double>({0.0, -80.0 * kRadiansPerDegree, 0.0}), {0.0, 0.1, 2.4});
+  const PinholeCamera camera;
+  std::vector<DepthImage> frames;
+  for (const Posed* posed : {&left, &front}) {
+    ZBuffer zbuffer(camera);
+    frames.push_back(zbuffer.Render(posed->surface.vertices, posed->surface.triangles));
+  }
+  Registrar registrar(SmallSpace(), {}, QuickSettings());
+  const std::vector<Registration> found = registrar.FindSame(frames, camera);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].problem, "");
+  EXPECT_EQ(found[1].problem, "");
+  EXPECT_EQ(found[0].state.theta, found[1].state.theta);
+  EXPECT_LT(MeanJointError(registrar, found[0], left), 0.04);
+  EXPECT_LT(MeanJointError(registrar, found[1], front), 0.04);
+  EXPECT_NEAR(registrar.Body(found[0].state.theta).attributes.height_m,
+              left.body.attributes.height_m, 0.03);
 }
 
 TEST(Registration, RefusesAnEmptyFrame) {

@@ -1,5 +1,7 @@
 #include "subjects/rig.h"
 
+#include <fstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +10,7 @@
 #include "math/statistics.h"
 #include "subjects/rig_pictures.h"
 #include "support/small_space.h"
+#include "support/temporary_folder.h"
 
 namespace vitruvia {
 namespace {
@@ -54,7 +57,8 @@ std::vector<TriangleMesh> Moving(int frames) {
 
 TEST(Rig, OneMeshIsPutIntoTheTPoseAndBack) {
   Registrar registrar(SmallSpace(), {}, QuickSettings().registration);
-  const Rig rig = RigMeshes(Moving(1), registrar, QuickSettings());
+  RegistrationLog log;
+  const Rig rig = RigMeshes(Moving(1), registrar, QuickSettings(), log);
   EXPECT_NO_THROW(CheckBodyModel(rig.subject, "subject"));
   ASSERT_TRUE(rig.cost.has_value());
   EXPECT_LT(rig.cost->reposing_max_m, 1e-4);  // inverse skinning is exact
@@ -69,7 +73,8 @@ TEST(Rig, OneMeshIsPutIntoTheTPoseAndBack) {
 TEST(Rig, FramesTeachWeightsThatFollowThem) {
   Registrar registrar(SmallSpace(), {}, QuickSettings().registration);
   const std::vector<TriangleMesh> frames = Moving(6);
-  const Rig rig = RigMeshes(frames, registrar, QuickSettings());
+  RegistrationLog log;
+  const Rig rig = RigMeshes(frames, registrar, QuickSettings(), log);
   ASSERT_EQ(rig.rmse_m.size(), frames.size());
   EXPECT_LT(Mean(rig.rmse_m), 0.003);
   EXPECT_EQ(rig.registrations[1].start, "the frame before");
@@ -79,15 +84,41 @@ TEST(Rig, FramesTeachWeightsThatFollowThem) {
   EXPECT_EQ(strips[2].label, "frame 3");
 }
 
+TEST(Rig, GoesOnWhereItWasInterrupted) {
+  const TemporaryFolder folder;
+  const std::vector<TriangleMesh> frames = Moving(3);
+  RigSettings settings = QuickSettings();
+  settings.surface = RigSurface::kModel;
+  Registrar registrar(SmallSpace(), {}, settings.registration);
+  RegistrationLog whole;
+  const Rig expected = RigMeshes(frames, registrar, settings, whole);
+  {
+    RegistrationLog interrupted(folder / "log", "key");
+    RigMeshes({frames[0], frames[1]}, registrar, settings, interrupted);
+    std::ofstream(folder / "log", std::ios::app) << "{\"rotation\": [1.0, 0.";  // cut off
+  }
+  RegistrationLog log(folder / "log", "key");
+  ASSERT_EQ(log.registrations().size(), 2u);
+  const Rig resumed = RigMeshes(frames, registrar, settings, log);
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    const BodyState& state = resumed.registrations[f].state;
+    EXPECT_EQ(state.rotation, expected.registrations[f].state.rotation);
+    EXPECT_EQ(state.angles_deg, expected.registrations[f].state.angles_deg);
+    EXPECT_EQ(state.theta, expected.registrations[f].state.theta);
+  }
+  EXPECT_TRUE(RegistrationLog(folder / "log", "another key").registrations().empty());
+}
+
 TEST(Rig, MeshesOfAnyKindTakeTheModelsSurface) {
   std::vector<TriangleMesh> frames = Moving(2);
   frames[1].triangles.resize(frames[1].triangles.size() - 500);  // a hole
   RigSettings settings = QuickSettings();
   Registrar registrar(SmallSpace(), {}, settings.registration);
-  EXPECT_THAT([&] { RigMeshes(frames, registrar, settings); },
+  RegistrationLog log;
+  EXPECT_THAT([&] { RigMeshes(frames, registrar, settings, log); },
               testing::ThrowsMessage<DataError>(HasSubstr("frame 1: expected")));
   settings.surface = RigSurface::kModel;
-  const Rig rig = RigMeshes(frames, registrar, settings);
+  const Rig rig = RigMeshes(frames, registrar, settings, log);
   EXPECT_FALSE(rig.cost.has_value());
   EXPECT_LT(rig.registrations[1].distance.target_to_body_m, 0.01);
   EXPECT_NO_THROW(CheckBodyModel(rig.subject, "subject"));

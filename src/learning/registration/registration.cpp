@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Cholesky>
+
 #include "core/error.h"
+#include "core/progress.h"
+#include "fitting/depth_search.h"
 #include "fitting/depth_target.h"
 #include "math/rigid.h"
 
@@ -86,38 +90,43 @@ Registrar::Registrar(const ShapeSpace& space, const KnownAttributes& known,
 
 Registrar::~Registrar() = default;
 
+FitPriors Registrar::Priors() const {
+  FitPriors priors;
+  priors.angle_deviation_deg = settings_.search.angle_deviation_deg;
+  return priors;
+}
+
+NearFar Registrar::Limits() const { return {settings_.search.near_m, settings_.search.far_m}; }
+
+Eigen::VectorXd Registrar::ScaledShape(double scale) const {
+  Eigen::VectorXd theta(fine_body_.shape_count());
+  theta << scale * expected_.theta, (scale - 1.0) / settings_.scale_deviation;
+  return theta;
+}
+
 // What is expected of the person; if the height is not known, scaled so that the posed body is as
 // high as what is seen.
 Eigen::VectorXd Registrar::StartShape(const PoseHypothesis& hypothesis, double height_m) const {
-  const auto scaled = [&](double scale) {
-    Eigen::VectorXd theta(fine_body_.shape_count());
-    theta << scale * expected_.theta, (scale - 1.0) / settings_.scale_deviation;
-    return theta;
-  };
-  if (known_.height_m) return scaled(expected_.scale);
+  if (known_.height_m) return ScaledShape(expected_.scale);
   BodyState state = hypothesis.state;
-  state.theta = scaled(1.0);
+  state.theta = ScaledShape(1.0);
   PosedBody posed(coarse_body_);
   posed.Set(state);
   constexpr double kLeastHeight_m = 0.7, kMostHeight_m = 2.2;
   const double standing_m = HeightOf(ShapedSurface(coarse_body_, state.theta));
-  return scaled(std::clamp(height_m / HeightOf(posed.vertices()), kLeastHeight_m / standing_m,
-                           kMostHeight_m / standing_m));
+  return ScaledShape(std::clamp(height_m / HeightOf(posed.vertices()), kLeastHeight_m / standing_m,
+                                kMostHeight_m / standing_m));
 }
 
-Registration Registrar::Search(const Matrix3<double>& world_from_front, double height_m,
-                               FitTarget& coarse_target, FitTarget& fine_target) {
+std::vector<PoseHypothesis> Registrar::Hypotheses(const Matrix3<double>& world_from_front,
+                                                  double height_m) const {
   std::vector<PoseHypothesis> hypotheses =
       StartHypotheses(world_from_front, settings_.search.headings, Eigen::VectorXd());
   for (PoseHypothesis& h : hypotheses) h.state.theta = StartShape(h, height_m);
-  const std::vector<SearchLevel> levels{
-      {coarse_.get(), &coarse_target, {6, 0.5, 0.25, 0.5, false}, 20},
-      {coarse_.get(), &coarse_target, {10, 0.3, 0.12, 0.2, true}, 6},
-      {fine_.get(), &fine_target, {15, 0.15, 0.05, 0.05, true}, 2}};
-  FitPriors priors;
-  priors.angle_deviation_deg = settings_.search.angle_deviation_deg;
-  const SearchOutcome found =
-      SearchPose(hypotheses, levels, priors, {settings_.search.near_m, settings_.search.far_m});
+  return hypotheses;
+}
+
+Registration Registrar::Judged(const SearchOutcome& found) const {
   Registration registration{found.best.state, found.best.distance, found.margin,
                             fmt::format("{}, heading {:.0f} degrees", found.best.start->pose,
                                         found.best.start->heading_deg),
@@ -138,7 +147,12 @@ Registration Registrar::Find(const TriangleMesh& surface) {
   const OrientedPoints points = SampleSurface(surface, settings_.surface_points);
   SurfaceTarget coarse_target(points, kCoarseSeekers, settings_.clothing);
   SurfaceTarget fine_target(points, kFineSeekers, settings_.clothing);
-  return Search(Matrix3<double>::Identity(), height_m, coarse_target, fine_target);
+  const std::vector<PoseHypothesis> hypotheses = Hypotheses(Matrix3<double>::Identity(), height_m);
+  return Judged(SearchPose(hypotheses,
+                           {{coarse_.get(), &coarse_target, {6, 0.5, 0.25, 0.5, false}, 20},
+                            {coarse_.get(), &coarse_target, {10, 0.3, 0.12, 0.2, true}, 6},
+                            {fine_.get(), &fine_target, {15, 0.15, 0.05, 0.05, true}, 2}},
+                           Priors(), Limits()));
 }
 
 Registration Registrar::Find(const DepthImage& depth, const PinholeCamera& camera) {
@@ -150,21 +164,61 @@ Registration Registrar::Find(const DepthImage& depth, const PinholeCamera& camer
     return none;
   }
   const Matrix3<double> facing_camera = Vector3d(1.0, -1.0, -1.0).asDiagonal();
-  return Search(facing_camera, fine_target.height_m(), coarse_target, fine_target);
+  const std::vector<PoseHypothesis> hypotheses = Hypotheses(facing_camera, fine_target.height_m());
+  return Judged(SearchDepth(hypotheses,
+                            {coarse_.get(), fine_.get(), &coarse_target, &fine_target, true},
+                            Priors(), Limits()));
+}
+
+std::vector<Registration> Registrar::FindSame(const std::vector<DepthImage>& frames,
+                                              const PinholeCamera& camera) {
+  constexpr int kRounds = 6;
+  constexpr FitStage kPoses{4, 0.08, 0.05, 0.05, false};
+  std::vector<Registration> found;
+  Progress progress("register", static_cast<int>(frames.size()));
+  for (const DepthImage& frame : frames) {
+    found.push_back(Find(frame, camera));
+    if (!found.back().problem.empty()) return found;
+    progress.Advance();
+  }
+  if (frames.size() == 1) return found;
+  std::vector<DepthTarget> targets;
+  for (const DepthImage& frame : frames) targets.emplace_back(frame, camera, kFineFrame);
+  FitPriors priors = Priors();
+  priors.theta = ScaledShape(known_.height_m ? expected_.scale : 1.0);
+  Eigen::VectorXd theta = Eigen::VectorXd::Zero(priors.theta.size());
+  for (const Registration& r : found) theta += r.state.theta / static_cast<double>(found.size());
+  for (int round = 0; round <= kRounds; ++round) {
+    Eigen::MatrixXd hessian = Eigen::MatrixXd::Identity(theta.size(), theta.size());
+    Eigen::VectorXd gradient = theta - priors.theta;
+    for (std::size_t f = 0; f < found.size(); ++f) {
+      BodyState& state = found[f].state;
+      state.theta = theta;
+      priors.angles_deg = state.angles_deg;
+      state = fine_->Run(targets[f], state, kPoses, priors);
+      const ShapeEquations equations = fine_->EquationsOfShape(targets[f], state, kPoses, priors);
+      hessian += equations.hessian;
+      gradient += equations.gradient;
+    }
+    if (round < kRounds) theta -= hessian.ldlt().solve(gradient);
+  }
+  for (std::size_t f = 0; f < found.size(); ++f) {
+    found[f].distance = fine_->Measure(targets[f], found[f].state, Limits());
+    Judge(found[f]);
+  }
+  return found;
 }
 
 Registration Registrar::Follow(const TriangleMesh& surface, const BodyState& near) {
   SurfaceTarget target(SampleSurface(surface, settings_.surface_points), kFineSeekers,
                        settings_.clothing);
-  FitPriors priors;
-  priors.angle_deviation_deg = settings_.search.angle_deviation_deg;
+  FitPriors priors = Priors();
   priors.angles_deg = near.angles_deg;
   priors.theta = near.theta;
   Registration registration;
   registration.state = coarse_->Run(target, near, {6, 0.3, 0.1, 0.2, false}, priors);
   registration.state = fine_->Run(target, registration.state, {6, 0.1, 0.05, 0.05, false}, priors);
-  registration.distance =
-      fine_->Measure(target, registration.state, {settings_.search.near_m, settings_.search.far_m});
+  registration.distance = fine_->Measure(target, registration.state, Limits());
   registration.start = "the frame before";
   Judge(registration);
   return registration;

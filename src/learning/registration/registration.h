@@ -54,6 +54,10 @@ class Registrar {
   Registration Find(const TriangleMesh& surface);
   // In the camera's frame: y down. The frame's measurements are the person's.
   Registration Find(const DepthImage& depth, const PinholeCamera& camera);
+  // The same person in several frames (one or more): each found on its own, then one shape fitted
+  // to all of them.
+  std::vector<Registration> FindSame(const std::vector<DepthImage>& frames,
+                                     const PinholeCamera& camera);
   // From a state that is near, for the next surface of a sequence: the shape stays.
   Registration Follow(const TriangleMesh& surface, const BodyState& near);
 
@@ -63,8 +67,12 @@ class Registrar {
   BoneTransforms SurfaceFromSubject(const BodyState& state) const;
 
  private:
-  Registration Search(const Matrix3<double>& world_from_front, double height_m,
-                      FitTarget& coarse_target, FitTarget& fine_target);
+  FitPriors Priors() const;
+  NearFar Limits() const;
+  std::vector<PoseHypothesis> Hypotheses(const Matrix3<double>& world_from_front,
+                                         double height_m) const;
+  Registration Judged(const SearchOutcome& found) const;
+  Eigen::VectorXd ScaledShape(double scale) const;  // what is expected of the person, scaled
   Eigen::VectorXd StartShape(const PoseHypothesis& hypothesis, double height_m) const;
   void Judge(Registration& registration) const;
 
