@@ -9,7 +9,7 @@ namespace vitruvia {
 namespace {
 
 // Pictures beyond this are left to the files in figures/, so that the page opens on a phone.
-constexpr std::size_t kPictureBudget_bytes = 6'500'000;
+constexpr std::size_t kStripBudget_bytes = 6'500'000;
 
 // A strip of so many pictures leaves room to show each as large as it is.
 constexpr std::size_t kFewPictures = 4;
@@ -79,7 +79,7 @@ std::string PictureSection(const std::vector<RunPictures>& runs) {
   for (const RunPictures& run : runs) {
     html += fmt::format("<h3 class=\"run\">{}</h3>\n", Escaped(run.run_id));
     const std::string strips = RunPicturesHtml(run);
-    if (used_bytes + strips.size() > kPictureBudget_bytes) {
+    if (used_bytes + strips.size() > kStripBudget_bytes) {
       html += fmt::format(
           "<p>This run’s pictures are in <code>figures/pictures-{}.png</code>; they would make the "
           "page too heavy.</p>\n",

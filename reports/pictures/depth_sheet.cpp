@@ -15,11 +15,11 @@ namespace {
 
 constexpr int kColumns = 4;
 constexpr double kTileWidth = 240.0, kGap = 6.0, kLine = 20.0;  // page units
-constexpr double kBarWidth = 250.0, kBarHeight = 12.0;
-constexpr int kBarSteps = 60;
+constexpr double kScaleWidth = 250.0, kScaleHeight = 12.0;
+constexpr int kScaleSteps = 60;
 constexpr Color kNothing{0x20, 0x20, 0x20};
 
-struct DepthRange {
+struct PersonDepths {
   double nearest_m = std::numeric_limits<double>::infinity(), farthest_m = 0.0;
 
   double ShareOf(double depth_m) const {
@@ -27,8 +27,8 @@ struct DepthRange {
   }
 };
 
-DepthRange RangeOf(const std::vector<DepthTile>& tiles) {
-  DepthRange range;
+PersonDepths RangeOf(const std::vector<DepthTile>& tiles) {
+  PersonDepths range;
   for (const DepthTile& tile : tiles) {
     for (std::size_t i = 0; i < tile.depth.pixels().size(); ++i) {
       const double z = tile.depth.pixels()[i];
@@ -46,7 +46,7 @@ Color Grey(double share) {
   return {level, level, level};
 }
 
-ColorImage Colored(const DepthTile& tile, const DepthRange& range) {
+ColorImage Colored(const DepthTile& tile, const PersonDepths& range) {
   ColorImage image(tile.depth.width(), tile.depth.height());
   for (std::size_t i = 0; i < image.pixels().size(); ++i) {
     const double z = tile.depth.pixels()[i];
@@ -59,16 +59,16 @@ ColorImage Colored(const DepthTile& tile, const DepthRange& range) {
   return image;
 }
 
-void DrawBar(Canvas& canvas, Point at, const DepthRange& range) {
+void DrawBar(Canvas& canvas, Point at, const PersonDepths& range) {
   const TextStyle text{.size = 12.0};
   canvas.Text(at, fmt::format("depth of the person: {:.2f} m", range.nearest_m), text);
   at.x += TextWidth("depth of the person: 0.00 m", text) + 8.0;
-  for (int i = 0; i < kBarSteps; ++i) {
-    const double width = kBarWidth / kBarSteps;
-    canvas.Rectangle({at.x + i * width, at.y - 0.5 * kBarHeight}, width + 0.5, kBarHeight,
-                     DepthColor((i + 0.5) / kBarSteps));
+  for (int i = 0; i < kScaleSteps; ++i) {
+    const double width = kScaleWidth / kScaleSteps;
+    canvas.Rectangle({at.x + i * width, at.y - 0.5 * kScaleHeight}, width + 0.5, kScaleHeight,
+                     DepthColor((i + 0.5) / kScaleSteps));
   }
-  canvas.Text({at.x + kBarWidth + 8.0, at.y},
+  canvas.Text({at.x + kScaleWidth + 8.0, at.y},
               fmt::format("{:.2f} m; grey: what else is seen", range.farthest_m), text);
 }
 
@@ -76,12 +76,12 @@ void DrawBar(Canvas& canvas, Point at, const DepthRange& range) {
 
 void WriteDepthSheet(const std::filesystem::path& png, const std::vector<DepthTile>& tiles) {
   Require(!tiles.empty(), "WriteDepthSheet: no tiles");
-  const DepthRange range = RangeOf(tiles);
-  std::vector<ColorImage> images;
-  for (const DepthTile& tile : tiles) images.push_back(Colored(tile, range));
+  const PersonDepths range = RangeOf(tiles);
+  std::vector<Picture> pictures;
+  for (const DepthTile& tile : tiles) pictures.emplace_back(Colored(tile, range));
   const auto count = static_cast<int>(tiles.size());
   const int rows = (count + kColumns - 1) / kColumns;
-  const double height = kTileWidth * images.front().height() / images.front().width();
+  const double height = kTileWidth * tiles.front().depth.height() / tiles.front().depth.width();
   const double cell_height = height + kLine + kGap;
   const double width = kGap + kColumns * (kTileWidth + kGap);
   const double bottom = kGap + rows * cell_height;
@@ -93,7 +93,7 @@ void WriteDepthSheet(const std::filesystem::path& png, const std::vector<DepthTi
       const double y = kGap + i / kColumns * cell_height;
       const auto at = static_cast<std::size_t>(i);
       canvas.Text({x, y + 0.5 * kLine}, tiles[at].label, {.size = 12.0});
-      canvas.Picture({x, y + kLine}, kTileWidth, height, images[at]);
+      canvas.Image({x, y + kLine}, kTileWidth, height, pictures[at]);
     }
     if (range.farthest_m > 0.0) DrawBar(canvas, {kGap, bottom + 0.5 * kLine}, range);
   });
