@@ -152,13 +152,17 @@ class JointFinder {
       if (At(joint.left) < 0) missing_.emplace_back(joint.what);
       return;
     }
+    const bool one_is_given = (At(joint.left) < 0) != (At(joint.right) < 0);
     for (const std::string_view name : names) {
       for (const auto& [left, right] : SidesOf(std::string(name))) {
         if (At(joint.left) >= 0 && At(joint.right) >= 0) return;
         const int on_left = At(joint.left) >= 0 ? At(joint.left) : WithName(left, joint.left);
         const int on_right = At(joint.right) >= 0 ? At(joint.right) : WithName(right, joint.right);
-        if ((on_left < 0) != (on_right < 0)) return AddMissing(joint, names);
-        if (on_left < 0) continue;
+        if (on_left < 0 && on_right < 0) continue;
+        if (on_left < 0 || on_right < 0) {
+          if (one_is_given) continue;
+          return AddMissing(joint, names);
+        }
         At(joint.left) = on_left;
         At(joint.right) = on_right;
       }

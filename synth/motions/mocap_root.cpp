@@ -100,10 +100,10 @@ std::string RootUnitDoubt(const MocapClip& clip, const MocapJoints& joints,
     if (!too_low && heights.ShareExplainedBy(1.0 / factor) < kClearShare) continue;
     return fmt::format(
         "the root is {:.3g} m above 0, but {:.3g} m above the lowest joint (scaled to the body), "
-        "{:g} times as {}: are the root's positions in {} and the OFFSETs or lengths in {}? The "
-        "path is then {:g} times too {}",
-        heights.above_zero[0], heights.above_lowest[0], factor, too_low ? "much" : "little",
-        too_low ? larger : smaller, too_low ? smaller : larger, factor, too_low ? "short" : "long");
+        "a factor of about {:g}: are the root's positions in {} and the OFFSETs or lengths in {}? "
+        "The path is then {:g} times too {}",
+        heights.above_zero[0], heights.above_lowest[0], factor, too_low ? larger : smaller,
+        too_low ? smaller : larger, factor, too_low ? "short" : "long");
   }
   return "";
 }

@@ -172,7 +172,9 @@ TEST(MocapPlaces, HipsThatGoWhereNobodyGetsAreRefused) {
 }
 
 TEST(MocapPlaces, RefusedPathSaysTheUnitThatExplainsIt) {
-  EXPECT_THAT(RefusalOfBvh(TestBvh(TestSkeleton()).Text(WithRootsTimes(1000.0, Wriggle()))),
+  std::vector<TestFrame> frames = Wriggle();
+  frames.resize(20);  // 0.6 m
+  EXPECT_THAT(RefusalOfBvh(TestBvh(TestSkeleton()).Text(WithRootsTimes(1000.0, frames))),
               AllOf(HasSubstr("faster than 100 m/s"), HasSubstr("positions in millimetres"),
                     HasSubstr("in metres")));
 }
