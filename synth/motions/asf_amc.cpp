@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/error.h"
+#include "synth/motions/angle_unit.h"
 #include "synth/motions/asf.h"
 
 namespace vitruvia {
@@ -18,9 +18,6 @@ using Eigen::Quaterniond;
 constexpr double kSameRate = 1e-3;
 // Frames that may be made up between two neighbours of a file: 10 s at 120 frames/s.
 constexpr int kLongestGap = 1200;
-// A motion without a joint turned farther than this is that of a statue, or is not in degrees.
-constexpr double kSmallestTurnDeg = 4.0;
-constexpr double kMostTurns = 4.0;  // in an angle: more are radians that are degrees
 
 struct NumberedFrame {
   int number = 0, line = 0;
@@ -147,18 +144,13 @@ class AmcReader {
   }
 
   void CheckAngles(std::vector<std::string>& warnings) const {
-    const bool degrees = radians_per_unit_ != 1.0;
-    if (degrees && largest_angle_ > 0.0 && largest_angle_ < kSmallestTurnDeg * kRadiansPerDegree) {
-      warnings.push_back(words_.At(
-          1, fmt::format("no angle is larger than {:.2f} degrees: are they radians? (:RADIANS here "
-                         "or angle rad in the .asf)",
-                         largest_angle_ / kRadiansPerDegree)));
-    }
-    if (!degrees && largest_angle_ > 2.0 * std::numbers::pi * kMostTurns) {
-      warnings.push_back(words_.At(
-          1,
-          fmt::format("the largest angle is {:.4g} radians: are they degrees?", largest_angle_)));
-    }
+    const std::string doubt = radians_per_unit_ == 1.0
+                                  ? RadiansDoubt(largest_angle_)
+                                  : DegreesDoubt(largest_angle_ / kRadiansPerDegree);
+    if (doubt.empty()) return;
+    warnings.push_back(words_.At(1, fmt::format("{} ({} here or angle {} in the .asf)", doubt,
+                                                radians_per_unit_ == 1.0 ? ":DEGREES" : ":RADIANS",
+                                                radians_per_unit_ == 1.0 ? "deg" : "rad")));
   }
 
   std::vector<MocapFrame> WithoutGaps(std::vector<NumberedFrame> frames,

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "math/angles.h"
+#include "synth/motions/angle_unit.h"
 #include "synth/motions/frame_rate.h"
 #include "synth/motions/mocap_words.h"
 
@@ -31,11 +32,13 @@ class BvhReader {
   MocapClip Read() {
     ReadHierarchy();
     const int count = ReadMotionHeader();
+    const int first_frame_line = words_.line();
     for (int frame = 0; frame < count; ++frame) ReadFrame(frame, count);
     if (!words_.AtEnd()) {
       words_.Fail(words_.line(), fmt::format("more numbers than {} frames of {} channels take",
                                              count, channels_.size()));
     }
+    CheckAngles(first_frame_line);
     SetOffsets();
     SetTips();
     return std::move(clip_);
@@ -172,6 +175,7 @@ class BvhReader {
       line = words_.line();
       const double value = words_.TakeNumber("MOTION");
       if (channel.is_rotation) {
+        largest_angle_deg_ = std::max(largest_angle_deg_, std::abs(value));
         // Channels multiply in the order in which they are listed.
         read.rotations[channel.joint] =
             read.rotations[channel.joint] *
@@ -190,6 +194,13 @@ class BvhReader {
                                     frame + 1, count, channels_.size()));
     }
     clip_.frames.push_back(std::move(read));
+  }
+
+  void CheckAngles(int first_frame_line) {
+    const std::string doubt = DegreesDoubt(largest_angle_deg_);
+    if (doubt.empty()) return;
+    clip_.warnings.push_back(
+        words_.At(first_frame_line, doubt + " BVH has degrees; so they are taken"));
   }
 
   // Whether position channels below the root replace OFFSETs or are added to them.
@@ -257,6 +268,7 @@ class BvhReader {
   MocapClip clip_;
   std::vector<JointChannel> channels_;
   bool moves_joints_ = false;
+  double largest_angle_deg_ = 0.0;
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "math/angles.h"
 #include "synth/motions/mocap_figure.h"
+#include "synth/motions/mocap_root.h"
 
 namespace vitruvia {
 namespace {
@@ -17,11 +18,15 @@ using enum BoneId;
 constexpr double kTellChange = 0.05, kRefuseChange = 0.5;
 // The longer side by the shorter one.
 constexpr double kTellAsymmetry = 1.15, kRefuseAsymmetry = 2.0;
-constexpr double kShortest = 0.1;      // of a segment, as a share of a leg
-constexpr double kBentDeg = 25.0;      // a knee that is clearly bent
-constexpr double kFewest = 10;         // bent knees from which something can be said
-constexpr double kFastest_m_s = 15.0;  // nobody runs faster
-constexpr double kMostHeadDown = 0.5;  // of the frames
+constexpr double kShortest = 0.1;          // of a segment, as a share of a leg
+constexpr double kBentDeg = 25.0;          // a knee that is clearly bent
+constexpr double kFewest = 10;             // bent knees from which something can be said
+constexpr double kFastest_m_s = 15.0;      // nobody runs faster
+constexpr double kImpossible_m_s = 100.0;  // in most frames
+constexpr double kFarthest_m = 1000.0;     // from the first frame's place
+constexpr double kLevelFoot = 0.3;         // least level share of a foot that points anywhere
+constexpr double kToTheBackDeg = 60.0;     // from the back, at most, of a foot that points there
+constexpr double kMostHeadDown = 0.5;      // of the frames
 constexpr double kMostKneesForward = 0.5;
 
 struct LimbPair {
@@ -74,7 +79,8 @@ class Checker {
     CheckSides();
     CheckProportions();
     CheckHead();
-    CheckKnees();
+    CheckFront();
+    CheckRoot();
     CheckSpeed();
     return std::move(check_);
   }
@@ -187,8 +193,27 @@ class Checker {
          above, poses_.size());
   }
 
+  // Knees and feet show the front; the names of the sides must imply the same one.
+  void CheckFront() {
+    CountKnees();
+    std::vector<std::string> evidence;
+    const int forwards = check_.bent_knees - check_.knees_backwards;
+    if (check_.bent_knees >= kFewest && forwards > kMostKneesForward * check_.bent_knees) {
+      evidence.push_back(
+          fmt::format("{} of {} bent knees bend to the front", forwards, check_.bent_knees));
+    }
+    if (PointsToTheBack(kLeftFoot) && PointsToTheBack(kRightFoot)) {
+      evidence.emplace_back("both feet point to the back in the rest pose");
+    }
+    if (evidence.empty()) return;
+    Warn(
+        "{}, if the joints that are called left are on the left: are left and right exchanged, or "
+        "is the file mirrored?",
+        fmt::join(evidence, ", and "));
+  }
+
   // In the axes of the pelvis' front, a bent knee lies before the line from hip to ankle.
-  void CheckKnees() {
+  void CountKnees() {
     for (const MocapPose& pose : poses_) {
       const Vector3d left = HipsLeft(pose.positions, joints_);
       for (const auto& [hip, knee, ankle] : {std::tuple{kLeftThigh, kLeftShin, kLeftFoot},
@@ -201,25 +226,41 @@ class Checker {
         if (axis.dot(left) > 0.0) ++check_.knees_backwards;
       }
     }
-    const int forwards = check_.bent_knees - check_.knees_backwards;
-    if (check_.bent_knees < kFewest || forwards <= kMostKneesForward * check_.bent_knees) return;
-    Warn(
-        "{} of {} bent knees bend to the front: are left and right exchanged, or is the file "
-        "mirrored?",
-        forwards, check_.bent_knees);
   }
 
+  // At rest, from ankle to toes; not of a foot without toes or one that hangs.
+  bool PointsToTheBack(BoneId foot) const {
+    const Vector3d& toes = clip_.joints[joints_.At(foot)].tip;
+    const double level = std::hypot(toes.x(), toes.z());
+    return level > kLevelFoot * toes.norm() &&
+           -toes.z() > std::cos(kRadiansPerDegree * kToTheBackDeg) * level;
+  }
+
+  void CheckRoot() {
+    unit_doubt_ = RootUnitDoubt(clip_, joints_, poses_);
+    if (!unit_doubt_.empty()) Warn("{}", unit_doubt_);
+    const std::string fixed = FixedRootDoubt(clip_, joints_, poses_);
+    if (!fixed.empty()) Warn("{}", fixed);
+  }
+
+  Vector3d Hips(std::size_t frame) const { return Middle(poses_[frame], kLeftThigh, kRightThigh); }
+
   void CheckSpeed() {
-    int jumps = 0;
+    std::size_t jumps = 0, impossible = 0;
     for (std::size_t i = 1; i < poses_.size(); ++i) {
-      const double speed = (Middle(poses_[i], kLeftThigh, kRightThigh) -
-                            Middle(poses_[i - 1], kLeftThigh, kRightThigh))
-                               .norm() /
-                           clip_.frame_s;
+      RequireNear(i);
+      const double speed = (Hips(i) - Hips(i - 1)).norm() / clip_.frame_s;
       jumps += speed > kFastest_m_s;
+      impossible += speed > kImpossible_m_s;
       if (speed <= check_.fastest_m_s) continue;
       check_.fastest_m_s = speed;
       check_.fastest_frame = static_cast<int>(i - 1);
+    }
+    if (2 * impossible > poses_.size() - 1) {
+      Fail(
+          "the hips move faster than {:g} m/s between {} of {} pairs of frames; expected a person: "
+          "the unit of the root's positions or the rate is wrong{}",
+          kImpossible_m_s, impossible, poses_.size() - 1, UnitEvidence());
     }
     if (jumps == 0) return;
     Warn(
@@ -228,10 +269,25 @@ class Checker {
         kFastest_m_s, jumps, check_.fastest_m_s, check_.fastest_frame + 1, poses_.size());
   }
 
+  void RequireNear(std::size_t frame) const {
+    const double away = (Hips(frame) - Hips(0)).norm();
+    if (away <= kFarthest_m) return;
+    Fail(
+        "in frame {} of {} the hips are {:.3g} m away from where they are in frame 1; expected at "
+        "most {:g} m: a number of that frame is damaged, or the unit of the root's positions is "
+        "wrong{}",
+        frame + 1, poses_.size(), away, kFarthest_m, UnitEvidence());
+  }
+
+  std::string UnitEvidence() const {
+    return unit_doubt_.empty() ? "" : fmt::format(" ({})", unit_doubt_);
+  }
+
   const MocapClip& clip_;
   const MocapJoints& joints_;
   std::vector<MocapPose> poses_;
   MocapCheck check_;
+  std::string unit_doubt_;  // of the root's positions
 };
 
 }  // namespace

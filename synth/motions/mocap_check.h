@@ -1,5 +1,6 @@
 // Whether a clip looks like a human performer: limbs that keep their lengths, two equal sides, the
-// head above the feet, knees that bend backwards.
+// head above the feet, knees that bend backwards, feet that point to the front, a root that goes
+// where the feet carry it.
 #pragma once
 
 #include <array>
@@ -29,7 +30,7 @@ struct MocapCheck {
 
 // The clip is in the subject's axes (y up) and metres. DataError with the numbers if it cannot be
 // that of a person: a limb without length, or whose length changes by more than half, or that is
-// twice as long as the other side's.
+// twice as long as the other side's, or hips that go a kilometre away or at 100 m/s all along.
 MocapCheck CheckClip(const MocapClip& clip, const MocapJoints& joints);
 
 }  // namespace vitruvia

@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::size_t Index(BoneId bone) { return static_cast<std::size_t>(bone); }
 
+std::string_view JointName(BoneId bone) { return Bones()[Index(bone)].joint; }
+
 bool IsSeparator(char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }
 
 // How many first characters all names but the root's share, up to the last separator among them:
@@ -70,6 +72,8 @@ class JointFinder {
 
   MocapJoints Find() {
     FindRig();
+    SkipCollarBones(LimbJoint::kShoulder, LimbJoint::kElbow);
+    SkipCollarBones(LimbJoint::kHip, LimbJoint::kKnee);
     CheckLimb(BoneId::kLeftUpperArm, BoneId::kLeftForearm, BoneId::kLeftHand);
     CheckLimb(BoneId::kRightUpperArm, BoneId::kRightForearm, BoneId::kRightHand);
     CheckLimb(BoneId::kLeftThigh, BoneId::kLeftShin, BoneId::kLeftFoot);
@@ -88,19 +92,45 @@ class JointFinder {
   int Parent(int joint) const { return clip_.joints[static_cast<std::size_t>(joint)].parent; }
   bool Has(int joint, int ancestor) const { return Descends(clip_, joint, ancestor); }
 
+  const std::string& Name(int joint) const {
+    return clip_.joints[static_cast<std::size_t>(joint)].name;
+  }
+  std::string ParentName(int joint) const {
+    return Parent(joint) < 0 ? "nothing" : Name(Parent(joint));
+  }
+
+  template <class... Args>
+  [[noreturn]] void Fail(fmt::format_string<Args...> text, Args&&... args) const {
+    throw DataError(clip_.file.string() + ": " + fmt::format(text, std::forward<Args>(args)...));
+  }
+
   void TakeGiven(const MocapJointName& name) {
     const int bone = FindJoint(name.ours);
     Require(bone >= 0, "{} is no joint of the skeleton", name.ours);
+    int& given = given_[static_cast<std::size_t>(bone)];
     std::vector<std::string> of_file;
     for (std::size_t i = 0; i < clip_.joints.size(); ++i) {
       of_file.push_back(clip_.joints[i].name);
-      if (of_file.back() == name.file) given_[static_cast<std::size_t>(bone)] = static_cast<int>(i);
+      if (of_file.back() != name.file) continue;
+      if (given >= 0) FailTwoOfOneName(given, static_cast<int>(i), name.ours);
+      given = static_cast<int>(i);
     }
-    if (given_[static_cast<std::size_t>(bone)] >= 0) return;
+    if (given >= 0) return;
     const std::string nearest = NearestWord(name.file, of_file);
-    throw DataError(fmt::format("{}: there is no joint {}, which the motion's joints take for {}{}",
-                                clip_.file.string(), name.file, name.ours,
-                                nearest.empty() ? "" : fmt::format(" (is {} meant?)", nearest)));
+    Fail("there is no joint {}, which the motion's joints take for {}{}", name.file, name.ours,
+         nearest.empty() ? "" : fmt::format(" (is {} meant?)", nearest));
+  }
+
+  [[noreturn]] void FailTwoOfOneName(int first, int second, std::string_view ours) const {
+    const std::string remedy =
+        Name(first) == Name(second)
+            ? "rename one of them in the file"
+            : fmt::format(R"(add {{"file": "{}", "ours": "{}"}} to the motion's joints, or {})",
+                          Name(first), ours, Name(second));
+    Fail(
+        "two joints have one name, {} and {} (the first below {}, the second below {}), and "
+        "either may be the {}: {}",
+        Name(first), Name(second), ParentName(first), ParentName(second), ours, remedy);
   }
 
   void FindRig() {
@@ -118,17 +148,21 @@ class JointFinder {
 
   void FindLimbJoint(const LimbJointInfo& joint, const std::vector<std::string_view>& names) {
     if (joint.left == joint.right) {
-      if (At(joint.left) < 0) At(joint.left) = WithName(std::string(names[0]));
+      if (At(joint.left) < 0) At(joint.left) = WithName(std::string(names[0]), joint.left);
       if (At(joint.left) < 0) missing_.emplace_back(joint.what);
       return;
     }
+    const bool one_is_given = (At(joint.left) < 0) != (At(joint.right) < 0);
     for (const std::string_view name : names) {
       for (const auto& [left, right] : SidesOf(std::string(name))) {
         if (At(joint.left) >= 0 && At(joint.right) >= 0) return;
-        const int on_left = At(joint.left) >= 0 ? At(joint.left) : WithName(left);
-        const int on_right = At(joint.right) >= 0 ? At(joint.right) : WithName(right);
-        if ((on_left < 0) != (on_right < 0)) return AddMissing(joint, names);
-        if (on_left < 0) continue;
+        const int on_left = At(joint.left) >= 0 ? At(joint.left) : WithName(left, joint.left);
+        const int on_right = At(joint.right) >= 0 ? At(joint.right) : WithName(right, joint.right);
+        if (on_left < 0 && on_right < 0) continue;
+        if (on_left < 0 || on_right < 0) {
+          if (one_is_given) continue;
+          return AddMissing(joint, names);
+        }
         At(joint.left) = on_left;
         At(joint.right) = on_right;
       }
@@ -142,8 +176,8 @@ class JointFinder {
     if (on_left && on_right) return;
     for (const std::string_view name : names) {
       for (const auto& [left, right] : SidesOf(std::string(name))) {
-        on_left = on_left || WithName(left) >= 0;
-        on_right = on_right || WithName(right) >= 0;
+        on_left = on_left || WithName(left, joint.left) >= 0;
+        on_right = on_right || WithName(right, joint.right) >= 0;
       }
     }
     if (!on_left || on_right) missing_.push_back(fmt::format("left {}", joint.what));
@@ -158,29 +192,80 @@ class JointFinder {
   }
 
   // The joint of that name, -1 if there is none; where there are several, nobody can tell.
-  int WithName(const std::string& name) const {
+  int WithName(const std::string& name, BoneId bone) const {
     const auto found = std::ranges::find(names_, name);
     if (found == names_.end()) return -1;
     const auto second = std::find(found + 1, names_.end(), name);
-    const auto index = found - names_.begin();
+    const auto index = static_cast<int>(found - names_.begin());
     if (second != names_.end()) {
-      throw DataError(
-          fmt::format("{}: two joints have one name, {} and {}; the motion's joints must say which "
-                      "one is meant",
-                      clip_.file.string(), clip_.joints[static_cast<std::size_t>(index)].name,
-                      clip_.joints[static_cast<std::size_t>(second - names_.begin())].name));
+      FailTwoOfOneName(index, static_cast<int>(second - names_.begin()), JointName(bone));
     }
-    return static_cast<int>(index);
+    return index;
   }
 
   [[noreturn]] void ThrowMissing() const {
     std::string names;
     for (const MocapJoint& joint : clip_.joints) names += (names.empty() ? "" : ", ") + joint.name;
-    throw DataError(fmt::format(
-        "{}: cannot tell which joint is the {}; expected names of one kind on both sides, such as "
+    Fail(
+        "cannot tell which joint is the {}; expected names of one kind on both sides, such as "
         "LeftArm, LeftForeArm, LeftHand, LeftUpLeg, LeftLeg, LeftFoot and Head, or the motion's "
         "joints to say it; the file has {}",
-        clip_.file.string(), fmt::join(missing_, ", "), names));
+        fmt::join(missing_, ", "), names);
+  }
+
+  // In some rigs the collar bone is called shoulder, or a bone of the pelvis hip. The joint that
+  // begins the limb then lies below it under another name of the same joint.
+  void SkipCollarBones(LimbJoint first, LimbJoint second) {
+    const LimbJointInfo& begin = LimbJoints()[static_cast<std::size_t>(first)];
+    const LimbJointInfo& end = LimbJoints()[static_cast<std::size_t>(second)];
+    const auto& names = MocapRigs().back().names;
+    const auto& of_begin = names[static_cast<std::size_t>(first)];
+    const auto& of_end = names[static_cast<std::size_t>(second)];
+    const int left = LowestBetween(begin.left, end.left, of_begin);
+    const int right = LowestBetween(begin.right, end.right, of_begin);
+    RequireNoneBetween(begin.left, end.left, of_end);
+    RequireNoneBetween(begin.right, end.right, of_end);
+    const bool both_by_name = given_[Index(begin.left)] < 0 && given_[Index(begin.right)] < 0;
+    if (both_by_name && (left < 0) != (right < 0)) {
+      FailEither(left < 0 ? begin.right : begin.left, left < 0 ? right : left);
+    }
+    if (left >= 0) At(begin.left) = left;
+    if (right >= 0) At(begin.right) = right;
+  }
+
+  // The lowest joint between the two ends of a bone that has one of the names, with a side, and
+  // some length below it; -1 if there is none or if the user has said where the bone begins.
+  int LowestBetween(BoneId begin, BoneId end, const std::vector<std::string_view>& names) const {
+    const int first = found_.joints[Index(begin)], last = found_.joints[Index(end)];
+    if (given_[Index(begin)] >= 0 || !Has(last, first)) return -1;
+    Vector3<double> to_last = Vector3<double>::Zero();
+    for (int joint = last; joint != first; joint = Parent(joint)) {
+      if (joint != last && to_last.norm() > 0.0 && HasSideName(joint, names)) return joint;
+      to_last += clip_.joints[static_cast<std::size_t>(joint)].offset;
+    }
+    return -1;
+  }
+
+  bool HasSideName(int joint, const std::vector<std::string_view>& names) const {
+    return std::ranges::any_of(names, [&](std::string_view name) {
+      return std::ranges::any_of(SidesOf(std::string(name)), [&](const auto& sides) {
+        return names_[static_cast<std::size_t>(joint)] == sides.first ||
+               names_[static_cast<std::size_t>(joint)] == sides.second;
+      });
+    });
+  }
+
+  void RequireNoneBetween(BoneId begin, BoneId end,
+                          const std::vector<std::string_view>& names) const {
+    const int between = LowestBetween(begin, end, names);
+    if (between >= 0) FailEither(begin, between);
+  }
+
+  [[noreturn]] void FailEither(BoneId bone, int other) const {
+    Fail(R"(cannot tell whether {} or {}, which lies below it, is the {}; add {{"file": "{}", )"
+         R"("ours": "{}"}} to the motion's joints, or {})",
+         Name(found_.joints[Index(bone)]), Name(other), JointName(bone), Name(other),
+         JointName(bone), Name(found_.joints[Index(bone)]));
   }
 
   void CheckLimb(BoneId first, BoneId second, BoneId third) {
@@ -188,11 +273,8 @@ class JointFinder {
         Has(At(third), At(second))) {
       return;
     }
-    const auto name = [&](BoneId bone) {
-      return clip_.joints[static_cast<std::size_t>(At(bone))].name;
-    };
-    throw DataError(fmt::format("{}: {}, {} and {} do not follow each other in the joint tree",
-                                clip_.file.string(), name(first), name(second), name(third)));
+    Fail("{}, {} and {} do not follow each other in the joint tree", Name(At(first)),
+         Name(At(second)), Name(At(third)));
   }
 
   void SetTrunk(BoneId bone, BoneId left, BoneId right) {

@@ -53,6 +53,8 @@ class TestBvh {
   std::array<Matrix3<double>, kBoneCount> zero_pose = NoTurns();
   // Names of joints in the middle of hands and feet, "" where there is none.
   std::array<std::string, kBoneCount> beyond;
+  // Names of fixed joints half-way between a joint's parent and the joint, "" where there is none.
+  std::array<std::string, kBoneCount> before;
   // A fixed joint above the hips, which then carry the body's place; "" for none.
   std::string above;
   bool places_are_added = false;  // to the OFFSET of the hips, with `above`
@@ -87,9 +89,16 @@ class TestBvh {
   std::string Joint(std::size_t bone, const std::string& keyword) const {
     const int parent = Bones()[bone].parent;
     const Vector3<double>& joint = skeleton_.joints[bone];
-    std::string text = keyword + " " + names[bone] + "\n{\n";
-    text += Offset(parent < 0 ? joint : joint - skeleton_.joints[static_cast<std::size_t>(parent)],
-                   parent);
+    const Vector3<double> from_parent =
+        parent < 0 ? joint : joint - skeleton_.joints[static_cast<std::size_t>(parent)];
+    const bool halved = !before[bone].empty();
+    std::string text;
+    if (halved) {
+      text += "JOINT " + before[bone] + "\n{\n" + Offset(0.5 * from_parent, parent);
+      text += "CHANNELS 3 Zrotation Yrotation Xrotation\n";
+    }
+    text += keyword + " " + names[bone] + "\n{\n";
+    text += Offset((halved ? 0.5 : 1.0) * from_parent, parent);
     text += parent < 0 ? "CHANNELS 6 Xposition Yposition Zposition" : "CHANNELS 3";
     text += " Zrotation Yrotation Xrotation\n";
     bool leaf = true;
@@ -99,7 +108,7 @@ class TestBvh {
       leaf = false;
     }
     if (leaf) text += End(bone);
-    return text + "}\n";
+    return text + (halved ? "}\n}\n" : "}\n");
   }
 
   std::string End(std::size_t bone) const {
@@ -131,9 +140,10 @@ class TestBvh {
                                    Turn(angles.y(), Vector3<double>::UnitY()) *
                                    Turn(angles.x(), Vector3<double>::UnitX());
     const int parent = Bones()[bone].parent;
-    const Matrix3<double> before =
+    const Matrix3<double> of_parent =
         parent < 0 ? Matrix3<double>::Identity() : zero_pose[static_cast<std::size_t>(parent)];
-    const Vector3<double> zyx = Angles(before.transpose() * turned * zero_pose[bone]);
+    const Vector3<double> zyx = Angles(of_parent.transpose() * turned * zero_pose[bone]);
+    if (!before[bone].empty()) line += " 0 0 0";
     line += fmt::format(" {:.12f} {:.12f} {:.12f}", zyx[0], zyx[1], zyx[2]);
     if (!beyond[bone].empty()) line += " 0 0 0";
     for (std::size_t child = bone + 1; child < kBoneCount; ++child) {
