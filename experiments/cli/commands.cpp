@@ -170,8 +170,8 @@ int RunCommandLine(int argc, const char* const* argv) {
   } catch (const Error& error) {
     PrintMessage("vitruvia: {}\n", error.what());
     return static_cast<int>(error.code());
-  } catch (const std::system_error& error) {  // standard output that takes no more, say
-    PrintMessage("vitruvia: {}\n", error.what());
+  } catch (const std::system_error& error) {  // fmt's, of the only stream that is printed to
+    PrintMessage("vitruvia: standard output: {}\n", error.code().message());
     return static_cast<int>(ExitCode::kFailedRun);
   } catch (const std::exception& error) {
     PrintMessage("vitruvia: internal error: {}\n", error.what());

@@ -163,6 +163,21 @@ void ImportCorrespondingMeshes(const MeshSequenceSettings& settings, const Frame
 }
 
 // Meshes that correspond to nothing, each of its own triangles.
+// Refuses a mesh that is mirrored or whose triangles face inwards. The volume is taken about the
+// mesh's middle, where that of an open surface is positive too.
+constexpr double kInwardVolume_m3 = -0.02;  // a person has 0.05 to 0.1
+void RequireOutwards(const TriangleMesh& mesh, const fs::path& file) {
+  Eigen::AlignedBox3f box;
+  for (const Vector3f& v : mesh.vertices) box.extend(v);
+  TriangleMesh centered = mesh;
+  for (Vector3f& v : centered.vertices) v -= box.center();
+  const double volume_m3 = EnclosedVolume(centered);
+  if (volume_m3 < kInwardVolume_m3)
+    throw DataError(
+        fmt::format("{}: the triangles face inwards (volume {:.3f} m³); is the mesh mirrored?",
+                    file.string(), volume_m3));
+}
+
 void ImportOwnSurfaces(const MeshSequenceSettings& settings, const FrameFiles& files,
                        const fs::path& folder) {
   std::optional<BodyModel> subject;
@@ -174,6 +189,7 @@ void ImportOwnSurfaces(const MeshSequenceSettings& settings, const FrameFiles& f
   Progress progress("import " + folder.filename().string(), count);
   for (int i = 0; i < count; ++i) {
     const TriangleMesh mesh = ReadFrame(files.files[static_cast<std::size_t>(i)], settings);
+    RequireOutwards(mesh, files.files[static_cast<std::size_t>(i)]);
     watch.Look(mesh.vertices, i);
     const DepthImage& depth = zbuffer.Render(mesh.vertices, mesh.triangles);
     writer.Append(Measured(depth, settings, i), mesh, JointTruth());

@@ -26,4 +26,8 @@ Findings CheckImages(const SequenceReader& sequence, const std::vector<int>& fra
 // depth/ against the true surface, the true joints or the subject's size, whichever is there first.
 Findings CheckDepth(const SequenceReader& sequence, const std::vector<int>& frames);
 
+// Each image against the truth of its own frame, where there is a true surface: another moment, and
+// joints whose "visible" the image contradicts.
+Findings CheckFrames(const SequenceReader& sequence, const std::vector<int>& frames);
+
 }  // namespace vitruvia

@@ -45,6 +45,8 @@ inline constexpr double kJump_m = 0.10;               // mean step of all joints
 inline constexpr double kJumpOfNeighbours = 4.0;      // … and of the steps before and after
 inline constexpr double kJointFromSkin_m = 0.10;      // more than in the rest pose
 inline constexpr double kJointsOnSurface = 0.8;       // share of joints in their place
+inline constexpr double kJointOfSkin_m = 0.06;        // from where the skin round it carries it
+inline constexpr double kJointsOffSkin = 0.1;         // share of joints that may be farther
 inline constexpr double kSidewaysShoulders_m = 0.05;  // less is neither facing nor turned away
 inline constexpr double kUprightCosine = 0.7;         // first frame
 
@@ -73,6 +75,15 @@ inline constexpr double kCauseScore = 0.5;            // a cause explains this s
 inline constexpr double kCauseGain = 2.0;             // and this many times what is stated
 inline constexpr double kNearestBody_m = 0.2, kFarthestBody_m = 20.0;  // median depth
 inline constexpr double kApparentSize = 1.6;  // cloud / subject, either way
+
+// Each image against the truth of its own frame.
+inline constexpr float kSameMomentWithin_m = 0.05f;
+inline constexpr float kBeforeSurface_m = 0.15f;  // something else stands before the person
+inline constexpr double kUsualDifference = 2.0;   // times the share of a usual frame …
+inline constexpr double kFrameDifference = 0.10;  // … and this share of the pixels more
+inline constexpr long kFewDifferingPixels = 40;
+inline constexpr double kWrongFlags = 0.25;  // of the joints that the images decide about
+inline constexpr int kFewestFlags = 20;
 
 // How many frames are looked at before a run, so that it takes a few percent of the run's time, and
 // for the cause of a disagreement.

@@ -24,10 +24,28 @@ std::vector<Vector3f> EveryNth(const std::vector<Vector3f>& points, std::size_t 
   return some;
 }
 
-Eigen::AlignedBox3d Bounds(const std::vector<Vector3f>& points) {
+// Of the vertices that triangles have.
+Eigen::AlignedBox3d Bounds(const TriangleMesh& mesh) {
   Eigen::AlignedBox3d box;
-  for (const Vector3f& p : points) box.extend(p.cast<double>().eval());
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::int32_t v : triangle)
+      box.extend(mesh.vertices[static_cast<std::size_t>(v)].cast<double>().eval());
+  }
   return box;
+}
+
+std::optional<Finding> UnusedProblem(const TriangleMesh& mesh, const std::string& name) {
+  std::vector<bool> is_used(mesh.vertices.size(), false);
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::int32_t v : triangle) is_used[static_cast<std::size_t>(v)] = true;
+  }
+  const auto unused = std::count(is_used.begin(), is_used.end(), false);
+  if (unused == 0) return std::nullopt;
+  return Warning(
+      "{}: {} of {} vertices are in no triangle, vertex {} the first of them; errors are "
+      "taken over them too",
+      name, unused, is_used.size(),
+      std::find(is_used.begin(), is_used.end(), false) - is_used.begin());
 }
 
 // How far the subject's vertices are from the rest mesh.
@@ -125,8 +143,8 @@ std::optional<Finding> TurnProblem(const RestComparison& comparison, const Misfi
 
 Findings CheckRestMesh(const TriangleMesh& true_rest, const BodyModel& subject,
                        const std::string& name) {
-  const Eigen::AlignedBox3d rest = Bounds(true_rest.vertices);
-  const Eigen::AlignedBox3d body = Bounds(subject.rest.vertices);
+  const Eigen::AlignedBox3d rest = Bounds(true_rest);
+  const Eigen::AlignedBox3d body = Bounds(subject.rest);
   const double ratio = rest.diagonal().norm() / body.diagonal().norm();
   if (std::abs(ratio - 1.0) > kRestScaleWithin)
     return {
@@ -143,6 +161,7 @@ Findings CheckRestMesh(const TriangleMesh& true_rest, const BodyModel& subject,
     return {Impossible("{}: the triangles face inwards (volume {:.3f} m³); is the mesh mirrored?",
                        name, EnclosedVolume(true_rest))};
   if (const auto problem = TurnProblem(comparison, as_is, name)) return {*problem};
+  if (const auto problem = UnusedProblem(true_rest, name)) return {*problem};
   return {};
 }
 

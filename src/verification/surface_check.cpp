@@ -2,6 +2,7 @@
 #include <cmath>
 #include <optional>
 
+#include "math/rigid_fit.h"
 #include "math/statistics.h"
 #include "verification/checks.h"
 #include "verification/likely_cause.h"
@@ -14,6 +15,7 @@ using namespace verification_limits;
 constexpr const char* kVertices = "truth/vertices.bin";
 constexpr std::size_t kEdges = 500;       // that are measured
 constexpr std::size_t kSkinOfJoint = 12;  // vertices round a joint that follow it
+constexpr std::size_t kCarriers = 60;     // vertices round a joint whose motion carries it
 
 // Posed length by rest length of some edges.
 std::vector<double> EdgeRatios(const TriangleMesh& rest, const std::vector<Vector3f>& posed) {
@@ -100,6 +102,8 @@ struct SkinOfJoints {
   std::vector<int> bones;   // in the skeleton
   std::vector<std::vector<std::int32_t>> vertices;
   std::vector<double> rest_m;  // from the joint to the mean of its vertices
+  std::vector<std::vector<std::int32_t>> carriers;
+  std::vector<Vector3d> rest_joints;
 };
 
 Vector3d MeanOf(const std::vector<std::int32_t>& indices, const std::vector<Vector3f>& vertices) {
@@ -112,6 +116,7 @@ SkinOfJoints FindSkin(const SequenceReader& sequence) {
   const TriangleMesh& rest = sequence.true_rest_mesh();
   SkinOfJoints skin;
   const std::size_t count = std::min(kSkinOfJoint, rest.vertices.size());
+  const std::size_t carriers = std::min(kCarriers, rest.vertices.size());
   std::vector<std::pair<float, std::int32_t>> order(rest.vertices.size());
   for (std::size_t j = 0; j < sequence.info().joints.size(); ++j) {
     const int bone = FindJoint(sequence.info().joints[j]);
@@ -120,14 +125,17 @@ SkinOfJoints FindSkin(const SequenceReader& sequence) {
     const Vector3f at = joint.cast<float>();
     for (std::size_t v = 0; v < order.size(); ++v)
       order[v] = {(rest.vertices[v] - at).squaredNorm(), static_cast<std::int32_t>(v)};
-    std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count) - 1,
-                     order.end());
-    std::vector<std::int32_t> nearest;
+    std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(carriers),
+                      order.end());
+    std::vector<std::int32_t> nearest, round;
     for (std::size_t k = 0; k < count; ++k) nearest.push_back(order[k].second);
+    for (std::size_t k = 0; k < carriers; ++k) round.push_back(order[k].second);
     skin.joints.push_back(static_cast<int>(j));
     skin.bones.push_back(bone);
     skin.rest_m.push_back((MeanOf(nearest, rest.vertices) - joint).norm());
     skin.vertices.push_back(std::move(nearest));
+    skin.carriers.push_back(std::move(round));
+    skin.rest_joints.push_back(joint);
   }
   return skin;
 }
@@ -162,6 +170,50 @@ void AddFrame(const SkinOfJoints& skin, const JointTruth& truth,
     places.on_surface.push_back(MeanOf(skin.vertices[i], vertices));
     places.within_m.push_back(skin.rest_m[i] + kJointFromSkin_m);
   }
+}
+
+// How far each joint of the skin's list is from where the rigid motion of the vertices round it
+// carries it, in one frame after the other.
+struct CarriedJoints {
+  std::vector<std::vector<double>> off_m;  // of each joint, the frames that know it
+
+  void AddFrame(const SkinOfJoints& skin, const TriangleMesh& rest, const JointTruth& truth,
+                const std::vector<Vector3f>& vertices) {
+    off_m.resize(skin.joints.size());
+    for (std::size_t i = 0; i < skin.joints.size(); ++i) {
+      const auto joint = static_cast<std::size_t>(skin.joints[i]);
+      if (!truth.Knows(joint)) continue;
+      const std::vector<std::int32_t>& carriers = skin.carriers[i];
+      const Rigidd posed_from_rest = FitRigid(carriers.size(), [&](std::size_t k) -> PointPair {
+        const auto v = static_cast<std::size_t>(carriers[k]);
+        return {rest.vertices[v].cast<double>(), vertices[v].cast<double>()};
+      });
+      off_m[i].push_back((posed_from_rest * skin.rest_joints[i] - truth.positions[joint]).norm());
+    }
+  }
+};
+
+// Joints that lie near the surface's, but not where it has them.
+std::optional<Finding> CarriedProblem(const CarriedJoints& carried, const SkinOfJoints& skin,
+                                      const SequenceInfo& info) {
+  std::size_t far = 0, all = 0, worst = 0;
+  std::vector<double> medians;
+  for (const std::vector<double>& off : carried.off_m) {
+    all += off.size();
+    far += static_cast<std::size_t>(
+        std::count_if(off.begin(), off.end(), [](double m) { return m > kJointOfSkin_m; }));
+    medians.push_back(off.empty() ? 0.0 : Quantile(off, 0.5));
+    if (medians.back() > medians[worst]) worst = medians.size() - 1;
+  }
+  if (all == 0) return std::nullopt;
+  const double share = static_cast<double>(far) / static_cast<double>(all);
+  if (share <= kJointsOffSkin && medians[worst] <= kJointOfSkin_m) return std::nullopt;
+  return Warning(
+      "truth/joints.json: {:.0f} % of the joints lie more than {:g} m from where "
+      "truth/vertices.bin carries them, \"{}\" {:.3g} m in the median; are they of other frames "
+      "or another person, or is this joint another one?",
+      100.0 * share, kJointOfSkin_m, info.joints[static_cast<std::size_t>(skin.joints[worst])],
+      medians[worst]);
 }
 
 std::string CauseOf(const JointPlaces& places) {
@@ -211,6 +263,7 @@ Findings CheckTrueSurface(const SequenceReader& sequence, const std::vector<int>
   const bool has_joints = info.subject && !info.joints.empty();
   const SkinOfJoints skin = has_joints ? FindSkin(sequence) : SkinOfJoints();
   JointPlaces places;
+  CarriedJoints carried;
   StrayVertices strays;
   for (const int frame : frames) {
     const std::vector<Vector3f> vertices = sequence.ReadTrueVertices(frame);
@@ -219,15 +272,20 @@ Findings CheckTrueSurface(const SequenceReader& sequence, const std::vector<int>
     const bool has_strays = strays.Look(rest, vertices, frame);  // these alone can turn a volume
     if (const auto problem = has_strays ? std::nullopt : SideProblem(rest, vertices, frame))
       return {*problem};
-    if (has_joints) AddFrame(skin, sequence.true_joints(frame), vertices, places);
+    if (!has_joints) continue;
+    AddFrame(skin, sequence.true_joints(frame), vertices, places);
+    if (!has_strays) carried.AddFrame(skin, rest, sequence.true_joints(frame), vertices);
   }
   if (const auto problem = JointProblem(places, frames.size())) return {*problem};
-  if (strays.frames == 0) return {};
-  return {Warning(
+  Findings findings;
+  if (const auto problem = CarriedProblem(carried, skin, info)) findings.push_back(*problem);
+  if (strays.frames == 0) return findings;
+  findings.push_back(Warning(
       "{}: frame {}: an edge at vertex {} is {:.4g} m long, {:.3g} m at rest; {} of {} frames have "
       "such edges; is a number damaged?",
       kVertices, strays.first_frame, strays.vertex, strays.edge_m, strays.rest_edge_m,
-      strays.frames, frames.size())};
+      strays.frames, frames.size()));
+  return findings;
 }
 
 }  // namespace vitruvia

@@ -77,6 +77,7 @@ Findings FindInconsistencies(const SequenceReader& sequence, FrameSelection sele
       [&] { return CheckTrueSurface(sequence, frames); },
       [&] { return CheckImages(sequence, frames); },
       [&] { return CheckDepth(sequence, frames); },
+      [&] { return CheckFrames(sequence, frames); },
   };
   Findings all;
   for (const auto& check : checks) {

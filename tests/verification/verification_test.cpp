@@ -14,6 +14,7 @@
 #include "geometry/mesh_io.h"
 #include "support/small_recording.h"
 #include "support/temporary_folder.h"
+#include "verification/rest_mesh_check.h"
 
 namespace vitruvia {
 namespace {
@@ -224,6 +225,61 @@ TEST_F(Verification, AStrayVertexIsNamed) {
                 reinterpret_cast<const char*>(&far_m), sizeof far_m);
   WriteWholeFile(folder_ / "truth/vertices.bin", bytes);
   Expect(Severity::kWarning, {"truth/vertices.bin: frame 1: an edge at vertex"});
+}
+
+TEST_F(Verification, ImagesShiftedByAFrameAreNamed) {
+  recording_.frames = 6;
+  recording_.Write(folder_);
+  for (const Finding& finding : Found()) ADD_FAILURE() << finding.text;
+  EditDepth([this](const DepthImage&, int frame) { return recording_.Depth(frame - 1); });
+  Expect(Severity::kWarning, {"depth/: the images look shifted in time", "of the one before"});
+  EditDepth([this](const DepthImage&, int frame) { return recording_.Depth(frame + 1); });
+  Expect(Severity::kWarning, {"depth/: the images look shifted in time", "of the one after"});
+}
+
+TEST_F(Verification, AnImageOfAnotherMomentIsNamed) {
+  recording_.frames = 6;
+  recording_.Write(folder_);
+  EditDepth([](const DepthImage& depth, int frame) {
+    if (frame != 3) return depth;
+    constexpr int kAside = 6;
+    DepthImage moved(depth.width(), depth.height());
+    for (int v = 0; v < depth.height(); ++v) {
+      for (int u = kAside; u < depth.width(); ++u) moved(u, v) = depth(u - kAside, v);
+    }
+    return moved;
+  });
+  Expect(Severity::kWarning, {"depth/000003.png", "1 of 6 frames", "of another moment"});
+}
+
+TEST_F(Verification, AJointNearTheSurfacesPlaceThatIsAnotherOneIsNamed) {
+  constexpr auto kWrist = static_cast<std::size_t>(BoneId::kLeftHand);
+  constexpr auto kElbow = static_cast<std::size_t>(BoneId::kLeftForearm);
+  Edit("truth/joints.json", [&](Json& json) {
+    for (Json& frame : json["frames"])
+      std::swap(frame["positions"][kWrist], frame["positions"][kElbow]);
+  });
+  Expect(Severity::kWarning, {"truth/joints.json", "from where truth/vertices.bin carries them"});
+}
+
+TEST_F(Verification, VisibleFlagsThatTheImagesContradictAreNamed) {
+  recording_.frames = 6;
+  recording_.Write(folder_);
+  Edit("truth/joints.json", [](Json& json) {
+    for (Json& frame : json["frames"]) {
+      for (Json& visible : frame["visible"]) visible = !visible.get<bool>();
+    }
+  });
+  Expect(Severity::kWarning, {"\"visible\" disagrees with the images", "marked visible"});
+}
+
+TEST_F(Verification, AVertexInNoTriangleIsNamedAndCountsNotForTheSize) {
+  recording_.body.rest.vertices.emplace_back(0.0f, 0.0f, 40.0f);
+  const Findings findings = CheckRestMesh(recording_.body.rest, SmallRecording().body, "rest.obj");
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].severity, Severity::kWarning);
+  EXPECT_THAT(findings[0].text, HasSubstr("1 of "));
+  EXPECT_THAT(findings[0].text, HasSubstr("are in no triangle"));
 }
 
 TEST_F(Verification, SubjectsOfAnotherUnitOrSizeAreNamed) {
