@@ -137,9 +137,9 @@ KnownJoints KnownOf(const SequenceInfo& info) {
 
 }  // namespace
 
-void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
-                   const BodyModel& subject, const std::function<void(DepthFrame&)>& prepare,
-                   const fs::path& folder) {
+void TrackSequence(const SequenceReader& sequence, const PinholeCamera& camera,
+                   const MethodConfig& method, const BodyModel& subject,
+                   const std::function<void(DepthFrame&)>& prepare, const fs::path& folder) {
   const SequenceInfo& info = sequence.info();
   ForgetPeakMemory();
   const double before_mb = ResidentMemory_mb();
@@ -148,14 +148,14 @@ void TrackSequence(const SequenceReader& sequence, const MethodConfig& method,
   EstimateWriter writer(folder, subject.rest);
   Progress progress("track " + method.method, info.frames);
   const KnownJoints known = KnownOf(info);
-  tracker->Start(subject, info.camera);
+  tracker->Start(subject, camera);
   for (int i = 0; i < info.frames; ++i) {
     DepthFrame frame{i, i / info.fps, sequence.ReadDepth(i), i == 0 ? known : KnownJoints()};
     prepare(frame);
     const Stopwatch watch;
     TrackResult result = tracker->TrackFrame(frame);
     const double frame_ms = watch.ElapsedMs();
-    MarkAstray(frame, info.camera, diagonal_m, result);
+    MarkAstray(frame, camera, diagonal_m, result);
     writer.Append(result, frame_ms);
     progress.Advance();
   }

@@ -37,8 +37,8 @@ struct GatedRun {
   std::map<std::string, std::vector<double>> times_ms;
   // Of the resolved config: a hash, and by dotted key each setting as JSON. "" and none in files of
   // older programs; only a baseline stores the settings themselves.
-  std::string config_hash;
-  std::map<std::string, std::string> settings;
+  std::string config_hash{};
+  std::map<std::string, std::string> settings{};
 
   void Describe(Fields& fields);
   std::string name() const;  // "experiment: variant.scene.method.s1"

@@ -43,8 +43,8 @@ enum class TableRows {
 struct ShownTable {
   std::string title;
   TableRows rows = TableRows::kContenders;
-  std::vector<std::string> scenes;  // patterns; empty: all
-  std::vector<std::string> metrics;
+  std::vector<std::string> scenes{};  // patterns; empty: all
+  std::vector<std::string> metrics{};
 
   void Describe(Fields& fields);
   std::string Problem() const;

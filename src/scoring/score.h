@@ -26,7 +26,7 @@ enum class AgainstObservation {
 struct ScoreSettings {
   int reconstruction_every = 0;  // frames; 0: not measured
   AgainstObservation against_observation = AgainstObservation::kWithoutTruth;
-  BoundSettings bound;
+  BoundSettings bound{};
 
   void Describe(Fields& fields);
 };

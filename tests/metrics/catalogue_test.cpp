@@ -43,12 +43,15 @@ TEST(MetricCatalogue, SaysHowANumberWithADirectionIsComputedAndWhatCounts) {
     const bool is_time_or_cost = metric.unit == "ms" || metric.unit == "s";
     if (metric.better == Better::kNeither || is_time_or_cost) continue;
     EXPECT_THAT(metric.formula, Not(IsEmpty())) << metric.key;
-    if (metric.formula.starts_with("mean") || metric.formula.starts_with("median"))
+    if (metric.formula.starts_with("mean") || metric.formula.starts_with("median")) {
       EXPECT_THAT(metric.averaged_over, Not(IsEmpty())) << metric.key;
+    }
   }
   for (const Metric& metric : MetricsShownIn(Place::kComparison)) {
     const bool is_of_a_body = metric.key.ends_with("error_m") || metric.key.ends_with("error_kg");
-    if (!is_of_a_body) EXPECT_TRUE(metric.hidden_and_lost.ends_with('.')) << metric.key;
+    if (!is_of_a_body) {
+      EXPECT_TRUE(metric.hidden_and_lost.ends_with('.')) << metric.key;
+    }
   }
 }
 

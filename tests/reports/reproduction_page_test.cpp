@@ -37,7 +37,7 @@ class ReproductionPage : public testing::Test {
     figure.tests = {test};
     figure.pictures = {{"*", {}, {kPictureFrame}, {"depth", "error"}, false}};
     figure.plots = {"joint-accuracy", kJointsByScene};
-    figure.tables = {{"Errors", {}, {"joint_error_mean_m"}}};
+    figure.tables = {{.title = "Errors", .metrics = {"joint_error_mean_m"}}};
     list_.figures = {figure};
   }
 
