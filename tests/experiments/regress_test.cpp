@@ -143,7 +143,7 @@ TEST_F(Regress, TheBaselinesProgramRunsInTurn) {
               HasSubstr("Speed not judged: the baseline's program left nothing readable"));
   const CallResult refused = Call({"--baseline-program", files_.File("none")});
   EXPECT_EQ(refused.code, static_cast<int>(ExitCode::kBadConfiguration));
-  EXPECT_THAT(refused.error, HasSubstr("none: No such file or directory; expected an executable"));
+  EXPECT_THAT(refused.error, HasSubstr("none: No such file or directory; expected a program"));
 }
 
 TEST_F(Regress, AnImprovementIsToldAndPasses) {

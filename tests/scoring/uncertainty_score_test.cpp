@@ -21,7 +21,7 @@ RunRecord ScoredWithErrors(double factor) {
   SequenceInfo info;
   info.camera = {8, 6, 5.0, 5.0, 3.5, 2.5};
   info.frames = kFrames;
-  info.surface = false;
+  info.surface = info.subject = false;
   for (const BoneInfo& bone : Bones()) info.joints.emplace_back(bone.joint);
   SequenceWriter writer(folder / "sequence", info, std::nullopt);
   EstimateWriter estimate(folder / "estimate", body.rest);

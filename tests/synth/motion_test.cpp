@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -121,15 +122,30 @@ double FastestHand(const Motion& motion) {
 
 // Finger tips, metres per second, with the pelvis at constant height.
 TEST(ShippedMotions, LoadWithinTheLimitsAndMoveAtTheirPace) {
-  const std::map<std::string, double> bounds{
-      {"arm_wave", 3.0},      {"boxing", 6.0},       {"calisthenics", 2.0},
-      {"crouch", 1.5},        {"handstand", 4.0},    {"handstand_scissors", 4.0},
-      {"hands_on_body", 3.0}, {"jumping_jack", 4.5}, {"kick", 3.0},
-      {"sit_down", 2.0},      {"sit_on_chair", 2.0}, {"t_pose", 0.3},
-      {"turn_360", 2.0},      {"walk", 2.5}};
+  const std::map<std::string, double> bounds{{"arm_wave", 3.0},
+                                             {"boxing", 6.0},
+                                             {"calisthenics", 2.0},
+                                             {"crouch", 1.5},
+                                             {"elsewhere", 3.0},
+                                             {"handstand", 4.0},
+                                             {"handstand_scissors", 4.0},
+                                             {"hands_on_body", 3.0},
+                                             {"jumping_jack", 4.5},
+                                             {"kick", 3.0},
+                                             {"sit_down", 2.0},
+                                             {"sit_on_chair", 2.0},
+                                             {"t_pose", 0.3},
+                                             {"towards_camera", 3.0},
+                                             {"turn_360", 2.0},
+                                             {"walk", 2.5}};
+  // A twist about the arm's own axis moves no finger tip, and half a turn between two frames is
+  // faster than anybody.
+  const std::set<std::string> hard_cases{"arm_twist", "half_turn"};
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(kMotions)) {
-    names.push_back(entry.path().stem().string());
+    const std::string name = entry.path().stem().string();
+    EXPECT_NE(Shipped(name), nullptr);
+    if (!hard_cases.contains(name)) names.push_back(name);
   }
   std::sort(names.begin(), names.end());
   ASSERT_EQ(names.size(), bounds.size());
