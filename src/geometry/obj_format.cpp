@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 18> kSkipped = {
 std::string Statement(TextLines& lines) {
   std::string statement;
   while (true) {
-    const std::string_view text = lines.text().substr(0, lines.text().find('#'));
+    const std::string_view text = WithoutComment(lines.text());
     statement += text;
     if (!text.ends_with('\\')) return statement;
     statement.back() = ' ';

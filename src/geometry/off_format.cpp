@@ -14,7 +14,7 @@ using Words = std::vector<std::string_view>;
 // The words of the next line that has any; a comment begins with # and ends with the line.
 Words NextLine(TextLines& lines) {
   while (lines.Next()) {
-    Words words = SplitAtBlanks(lines.text().substr(0, lines.text().find('#')));
+    Words words = SplitAtBlanks(WithoutComment(lines.text()));
     if (!words.empty()) return words;
   }
   return {};
@@ -58,17 +58,24 @@ TriangleMesh ParseOff(std::string_view content, const std::string& file) {
   TextLines lines(content, file);
   const Words counts = Counts(lines);
   const std::int64_t vertices = Integer(counts[0], 0, lines), faces = Integer(counts[1], 0, lines);
+  std::size_t numbers_each = 0;  // normals, colours and texture coordinates follow the place
   for (std::int64_t v = 0; v < vertices; ++v) {
     const Words words = NextLine(lines);
     if (words.size() < 3) {
       lines.Fail(fmt::format("vertex {} of {} has {} numbers, expected at least 3 in its line", v,
                              vertices, words.size()));
     }
+    if (v == 0) numbers_each = words.size();
+    if (words.size() != numbers_each) {
+      lines.Fail(fmt::format("vertex {} has {} numbers, the first one {}: is one doubled or lost?",
+                             v, words.size(), numbers_each));
+    }
     for (const std::string_view word : words) Number(word, lines);
     mesh.vertices.push_back(
         Vector3d(Number(words[0], lines), Number(words[1], lines), Number(words[2], lines))
             .cast<float>());
   }
+  std::size_t colors_of_first = 0;
   for (std::int64_t f = 0; f < faces; ++f) {
     const Words words = NextLine(lines);
     if (words.empty()) lines.Fail(fmt::format("cut short before face {} of {}", f, faces));
@@ -77,6 +84,15 @@ TriangleMesh ParseOff(std::string_view content, const std::string& file) {
           fmt::format("face {} has {} corners, expected 3 (triangulate the mesh)", f, corners));
     }
     if (words.size() < 4) lines.Fail(fmt::format("cut short within face {} of {}", f, faces));
+    const std::size_t colors = words.size() - 4;
+    if (f == 0) colors_of_first = colors;
+    const bool is_no_color = colors == 2 || colors > 4 || (colors == 1) != (colors_of_first == 1);
+    if (is_no_color) {
+      lines.Fail(fmt::format(
+          "face {} has {} words after its corners, expected those of a colour (0, 1, 3 or 4; the "
+          "first face has {}): is a number doubled?",
+          f, colors, colors_of_first));
+    }
     Triangle triangle;
     for (std::size_t k = 0; k < 3; ++k) {
       triangle[k] = static_cast<std::int32_t>(

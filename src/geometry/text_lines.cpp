@@ -51,6 +51,14 @@ void TextLines::Fail(std::string_view problem) const {
   throw DataError(fmt::format("{}:{}: {}", file_, line_, problem));
 }
 
+std::string_view WithoutComment(std::string_view text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '#' && (i == 0 || kBlanks.find(text[i - 1]) != std::string_view::npos))
+      return text.substr(0, i);
+  }
+  return text;
+}
+
 std::vector<std::string_view> SplitAtBlanks(std::string_view text) {
   std::vector<std::string_view> words;
   while (true) {

@@ -32,6 +32,9 @@ class TextLines {
 
 std::vector<std::string_view> SplitAtBlanks(std::string_view text);
 
+// The text before a comment, which begins with a # at the start of a word.
+std::string_view WithoutComment(std::string_view text);
+
 // The number that the whole word spells, in C's notation; nothing if it spells none.
 std::optional<double> ParseNumber(std::string_view word);
 std::optional<std::int64_t> ParseInteger(std::string_view word);

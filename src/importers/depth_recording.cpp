@@ -151,6 +151,20 @@ DepthRecording WithGaps(const Counted& counted) {
   return recording;
 }
 
+// Images beside those of a list that it does not name, for people; "" if there are none.
+std::string Unlisted(std::vector<fs::path> listed, const fs::path& list) {
+  const fs::path folder = listed.front().parent_path();
+  std::vector<fs::path> unlisted;
+  std::sort(listed.begin(), listed.end());
+  for (const fs::path& file : FilesIn(folder)) {
+    if (!std::binary_search(listed.begin(), listed.end(), file)) unlisted.push_back(file);
+  }
+  if (unlisted.empty()) return "";
+  return fmt::format("{} files of {} are not in {}, {} the first of them", unlisted.size(),
+                     folder.string(), list.filename().string(),
+                     unlisted.front().filename().string());
+}
+
 }  // namespace
 
 bool IsPcdFile(const fs::path& file) { return file.extension() == ".pcd"; }
@@ -165,6 +179,8 @@ DepthRecording FindRecordedFrames(const fs::path& images) {
   if (IsImageFile(images) || IsPcdFile(images)) return WithGaps({{images}, {}});
   const Counted counted = CountedOf(images);
   DepthRecording recording = WithGaps(counted);
+  if (const std::string unlisted = Unlisted(counted.files, images); !unlisted.empty())
+    recording.gaps.push_back(unlisted);
   const double step_s = UsualStep(counted.positions);
   if (step_s > 0.0) recording.fps = 1.0 / step_s;
   return recording;

@@ -11,7 +11,8 @@ struct DepthRecording {
   std::vector<std::filesystem::path> frames;  // empty where the file is missing
   double fps = 0.0;                           // of time stamps; 0 where there are none
   int missing = 0;                            // frames without a file
-  std::vector<std::string> gaps;              // for people: between which files, how many
+  // For people: between which files how many are missing, and files that a list does not name.
+  std::vector<std::string> gaps;
 
   int there() const { return static_cast<int>(frames.size()) - missing; }
 };

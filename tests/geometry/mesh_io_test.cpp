@@ -257,6 +257,13 @@ TEST_F(MeshIo, SaysWhereAFileIsDamaged) {
   ExpectRefused("a.obj", "\xFF\xFEv", "is UTF-16 text");
   ExpectRefused("a.off", "OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n",
                 "a.off:4: vertex 1 of 3 has 2");
+  ExpectRefused("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0 0\n0 1 0\n3 0 1 2\n",
+                "a.off:4: vertex 1 has 4 numbers, the first one 3");
+  ExpectRefused("a.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 2 1\n",
+                "a.off:7: face 1 has 1 words after its corners");
+  ExpectRefused("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2#2\n",
+                "a.off:6: expected a whole number");
+  ExpectRefused("a.obj", "v 0 0 0\nf 1 1 1#1\n", "a.obj:2: expected a corner such as");
   ExpectRefused("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n",
                 "a.off:7: expected the end of the file");
 }
