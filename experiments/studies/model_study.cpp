@@ -7,8 +7,8 @@
 #include "config/build_cache.h"
 #include "core/build_info.h"
 #include "core/error.h"
-#include "experiments/plan/experiment_config.h"
 #include "experiments/studies/drawn_parts.h"
+#include "experiments/studies/study_plan.h"
 #include "records/surface_strips.h"
 
 namespace vitruvia {
@@ -205,20 +205,15 @@ BoneTree TreeOfSkeleton(const ModelSkeleton& skeleton) {
 
 Experiment PlanModelStudy(const fs::path& file, const WorkFolders& work) {
   const auto settings = ReadSettingsFile<ModelStudySettings>(file);
-  Experiment experiment;
-  experiment.record.name = ConfigName(file);
-  experiment.record.title = settings.title;
-  experiment.record.description = settings.description;
-  PlannedRun& run = experiment.runs.emplace_back();
+  Experiment experiment = PlanOf(settings, file);
+  PlannedRun run;
   run.kind = kModelKind;
   run.resolved = {{"drawing", WriteSettings(settings.drawing)}};
   run.key = CacheKey(run.resolved);
   run.method = settings.drawing.model == DrawnModel::kDynamic ? "dynamic" : "realtime_scape";
   run.variant = "model";
   run.run_id = fmt::format("model.{}.{}", run.method, SettingsHash(run.resolved).substr(0, 8));
-  run.experiment = experiment.record.name;
-  run.work = work;
-  experiment.record.run_ids.push_back(run.run_id);
+  AddRun(std::move(run), work, experiment);
   return experiment;
 }
 

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/timer.h"
 #include "experiments/studies/held_out_people.h"
+#include "experiments/studies/study_plan.h"
 #include "geometry/surface_map.h"
 #include "math/rigid.h"
 #include "math/rigid_fit.h"
@@ -168,21 +169,12 @@ Experiment PlanShapeStudy(const fs::path& file, const WorkFolders& work) {
   const auto settings = ReadSettingsFile<ShapeStudySettings>(file);
   const LearningSettings learning = ReadLearningSettings(settings.learning);
   RequireEnoughHeldOut(settings.people, learning, file);
-  Experiment experiment;
-  experiment.record.name = ConfigName(file);
-  experiment.record.title = settings.title;
-  experiment.record.description = settings.description;
-  for (const ExpectationSettings& e : settings.expectations)
-    experiment.record.expectations.push_back(e.AsRecorded());
+  Experiment experiment = PlanOf(settings, file);
   const int first = learning.database.population.subjects - learning.held_out;
   for (const ScanVariant& variant : settings.scans) {
     const ShapeRun shape_run{learning, ReadScanSettings(variant.scan), settings.fit};
     for (int person = first; person < first + settings.people; ++person) {
-      PlannedRun run = Planned(shape_run, variant.name, person);
-      run.experiment = experiment.record.name;
-      run.work = work;
-      experiment.record.run_ids.push_back(run.run_id);
-      experiment.runs.push_back(std::move(run));
+      AddRun(Planned(shape_run, variant.name, person), work, experiment);
     }
   }
   return experiment;

@@ -6,6 +6,7 @@
 #include "core/build_info.h"
 #include "core/error.h"
 #include "experiments/studies/held_out_people.h"
+#include "experiments/studies/study_plan.h"
 #include "learning/skinning/fit_errors.h"
 #include "math/rigid.h"
 #include "math/statistics.h"
@@ -118,19 +119,10 @@ Experiment PlanWeightStudy(const fs::path& file, const WorkFolders& work) {
   const auto settings = ReadSettingsFile<WeightStudySettings>(file);
   const LearningSettings learning = ReadLearningSettings(settings.learning);
   RequireEnoughHeldOut(settings.people, learning, file);
-  Experiment experiment;
-  experiment.record.name = ConfigName(file);
-  experiment.record.title = settings.title;
-  experiment.record.description = settings.description;
-  for (const ExpectationSettings& e : settings.expectations)
-    experiment.record.expectations.push_back(e.AsRecorded());
+  Experiment experiment = PlanOf(settings, file);
   const int first = learning.database.population.subjects - learning.held_out;
   for (int person = first; person < first + settings.people; ++person) {
-    PlannedRun run = Planned(learning, settings.picture_poses, person);
-    run.experiment = experiment.record.name;
-    run.work = work;
-    experiment.record.run_ids.push_back(run.run_id);
-    experiment.runs.push_back(std::move(run));
+    AddRun(Planned(learning, settings.picture_poses, person), work, experiment);
   }
   return experiment;
 }

@@ -162,15 +162,13 @@ void ImportCorrespondingMeshes(const MeshSequenceSettings& settings, const Frame
   PublishChecked(writer, folder, {files.warning, watch.Warning(count)});
 }
 
-// Meshes that correspond to nothing, each of its own triangles.
 // Refuses a mesh that is mirrored or whose triangles face inwards. The volume is taken about the
 // mesh's middle, where that of an open surface is positive too.
 constexpr double kInwardVolume_m3 = -0.02;  // a person has 0.05 to 0.1
 void RequireOutwards(const TriangleMesh& mesh, const fs::path& file) {
-  Eigen::AlignedBox3f box;
-  for (const Vector3f& v : mesh.vertices) box.extend(v);
+  const Vector3f middle = BoundingBox(mesh.vertices).center();
   TriangleMesh centered = mesh;
-  for (Vector3f& v : centered.vertices) v -= box.center();
+  for (Vector3f& v : centered.vertices) v -= middle;
   const double volume_m3 = EnclosedVolume(centered);
   if (volume_m3 < kInwardVolume_m3)
     throw DataError(
@@ -178,6 +176,7 @@ void RequireOutwards(const TriangleMesh& mesh, const fs::path& file) {
                     file.string(), volume_m3));
 }
 
+// Meshes that correspond to nothing, each of its own triangles.
 void ImportOwnSurfaces(const MeshSequenceSettings& settings, const FrameFiles& files,
                        const fs::path& folder) {
   std::optional<BodyModel> subject;

@@ -229,5 +229,18 @@ TEST_F(MeshImport, MeshesWithoutARestPoseAreSurfacesOfTheirOwn) {
                 ExitCode::kBadConfiguration, {"rest", "`subject` names none"});
 }
 
+TEST_F(MeshImport, SurfacesOfTheirOwnThatFaceInwardsAreRefused) {
+  WriteFrames(".ply", [](const Vector3f& v) { return v; });
+  TriangleMesh inward{original_->ReadTrueVertices(2), original_->true_rest_mesh().triangles};
+  for (Triangle& triangle : inward.triangles) std::swap(triangle[0], triangle[1]);
+  WriteMesh(files_ / "meshes/002.ply", inward);
+  config_.erase("rest");
+  config_.erase("subject");
+  const CallResult call = Import();
+  EXPECT_EQ(call.code, static_cast<int>(ExitCode::kBadData));
+  EXPECT_THAT(call.error, HasSubstr("002.ply: the triangles face inwards"));
+  EXPECT_FALSE(fs::exists(files_ / "imported"));
+}
+
 }  // namespace
 }  // namespace vitruvia
