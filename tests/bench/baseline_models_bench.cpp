@@ -12,7 +12,7 @@
 namespace vitruvia::bench {
 namespace {
 
-constexpr int kThreads = 2, kFrames = 20, kRepeats = 3;
+constexpr int kThreads = 2, kModelFrames = 20, kModelRepeats = 3;
 
 // A model of as many stages and trees as the shipped one, of trees less deep.
 void LearnSmallJointModel(const std::filesystem::path& folder) {
@@ -34,7 +34,7 @@ double MedianFrameMs(const Json& method, ArmStage& stage) {
       MakeTracker(ReadMethodConfig(method, {"baseline_models_bench", ""}));
   tracker->Start(stage.body, stage.camera);
   std::vector<double> ms;
-  for (int i = 0; i < kFrames; ++i) {
+  for (int i = 0; i < kModelFrames; ++i) {
     const DepthFrame frame = stage.Frame(i, 0.03 * i);
     ms.push_back(MedianMs(1, [&] { tracker->TrackFrame(frame); }));
   }
@@ -53,12 +53,12 @@ std::vector<Row> BaselineModels() {
       {"settings", {{"detector", {{"model", (folder / "joints").string()}}}}}};
   const Json scape = {{"method", "scape_regression"},
                       {"settings", {{"regression", (folder / "regression").string()}}}};
-  return {
-      {"heat_weights",
-       MedianMs(kRepeats, [&] { skinning::HeatWeights(stage.body.rest, stage.body.skeleton, {}); }),
-       "ms"},
-      {"skeleton_driven_frame", MedianFrameMs(skeleton_driven, stage), "ms"},
-      {"scape_regression_frame", MedianFrameMs(scape, stage), "ms"}};
+  return {{"heat_weights",
+           MedianMs(kModelRepeats,
+                    [&] { skinning::HeatWeights(stage.body.rest, stage.body.skeleton, {}); }),
+           "ms"},
+          {"skeleton_driven_frame", MedianFrameMs(skeleton_driven, stage), "ms"},
+          {"scape_regression_frame", MedianFrameMs(scape, stage), "ms"}};
 }
 
 }  // namespace vitruvia::bench

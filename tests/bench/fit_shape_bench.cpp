@@ -12,7 +12,7 @@ namespace {
 constexpr int kPeople = 60, kHeldOut = 4;
 constexpr int kComponents = 30;
 constexpr double kScanNoise_m = 0.001;
-constexpr int kRepeats = 3;
+constexpr int kFitRepeats = 3;
 
 DatabaseSettings People() {
   DatabaseSettings settings;
@@ -50,7 +50,7 @@ std::vector<Row> FitShape() {
     const DatabaseSubject& person = database.subjects[static_cast<std::size_t>(s)];
     const ScannedSurface scan = NoisyScan({person.vertices, database.reference.rest.triangles});
     IntrinsicShape fit;
-    fit_ms.push_back(MedianMs(kRepeats, [&] {
+    fit_ms.push_back(MedianMs(kFitRepeats, [&] {
       fit = FitIntrinsicShape(space, tracking, scan, person.attributes, settings);
     }));
     error_mm.push_back(1000.0 * fit.body_to_scan_mean_m);

@@ -18,7 +18,7 @@
 namespace vitruvia::bench {
 namespace {
 
-constexpr int kRepeats = 31;
+constexpr int kGrowthRepeats = 31;
 constexpr double kDistance_m = 2.8;
 constexpr float kCutoff_m = 0.08f;
 constexpr int kWindow_px = 8;
@@ -78,14 +78,14 @@ double RenderMs(Rasterizer kind, const PinholeCamera& camera, const std::vector<
                 const std::vector<Triangle>& triangles) {
   const auto rasterizer = MakeRasterizer(kind, camera);
   rasterizer->Render(vertices, triangles);
-  return MedianMs(kRepeats, [&] { rasterizer->Render(vertices, triangles); });
+  return MedianMs(kGrowthRepeats, [&] { rasterizer->Render(vertices, triangles); });
 }
 
 double SearchMs(Association association, const PinholeCamera& camera,
                 const std::vector<Vector3f>& points, const std::vector<Vector3f>& queries) {
   const auto search = MakeNearestNeighbors(association, camera, kWindow_px);
   std::vector<KdTree::Neighbor> neighbors;
-  return MedianMs(kRepeats, [&] {
+  return MedianMs(kGrowthRepeats, [&] {
     search->Build(points);
     search->FindNearest(queries, kCutoff_m, neighbors);
   });
@@ -144,9 +144,9 @@ void Skinning(const std::vector<BodyModel>& bodies, std::vector<Row>& rows) {
     for (const BodyModel& body : bodies) {
       const BoneTransforms still(kBoneCount);
       std::vector<Vector3f> posed;
-      samples.push_back({static_cast<double>(body.rest.vertices.size()), MedianMs(kRepeats, [&] {
-                           skin(body.rest.vertices, body.weights, still, posed);
-                         })});
+      samples.push_back({static_cast<double>(body.rest.vertices.size()),
+                         MedianMs(kGrowthRepeats,
+                                  [&] { skin(body.rest.vertices, body.weights, still, posed); })});
     }
     AddRows(name, "vertices", samples, rows);
   }

@@ -15,14 +15,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFrames = 96;
+constexpr int kImportFrames = 96;
 constexpr int kRuns = 3;
 
 SceneSettings Scene() {
   auto scene = ReadSettingsFile<SceneSettings>(fs::path(VITRUVIA_SOURCE_DIR) /
                                                "configs/scenes/room_walk.json");
   scene.sensor.model = SensorModel::kKinectV1;
-  scene.frames = kFrames;
+  scene.frames = kImportFrames;
   return scene;
 }
 
@@ -38,7 +38,8 @@ DepthImportSettings ImportOf(const SceneSettings& scene, const fs::path& sequenc
 }
 
 double FramesPerSecond(const DepthImportSettings& settings, int threads, const fs::path& output) {
-  return 1e3 * kFrames / MedianMs(kRuns, [&] { ImportDepthSequence(settings, threads, output); });
+  return 1e3 * kImportFrames /
+         MedianMs(kRuns, [&] { ImportDepthSequence(settings, threads, output); });
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ constexpr int kPosesPerMotion = 10;
 constexpr int kVertices = 6252;  // of paper A's tracking mesh
 constexpr double kNoise_m = 0.001;
 constexpr double kMmPerM = 1000.0, kMsPerS = 1000.0;
-constexpr int kRepeats = 3;
+constexpr int kWeightsRepeats = 3;
 
 std::vector<JointPose> SampledPoses(const Skeleton& skeleton) {
   std::vector<JointPose> poses;
@@ -88,14 +88,14 @@ std::vector<Row> LearnWeights() {
   const Decomposition after_100 = Learn(body, examples, 100);
   Decomposition after_20;
   const std::clock_t before = std::clock();
-  const double all_ms = MedianMs(kRepeats, [&] { after_20 = Learn(body, examples, 20); });
+  const double all_ms = MedianMs(kWeightsRepeats, [&] { after_20 = Learn(body, examples, 20); });
   const double processor_ms = kMsPerS * static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
   const double noise_m = AddNoise(examples);
   const Decomposition noisy = Learn(body, examples, 20);
   return {
       {"learn_weights_ms_per_alternation", MedianAlternationMs(after_100), "ms"},
       {"learn_weights_ms", all_ms, "ms"},
-      {"learn_weights_processor_ms", processor_ms / kRepeats, "ms"},
+      {"learn_weights_processor_ms", processor_ms / kWeightsRepeats, "ms"},
       {"learn_weights_alternations", static_cast<double>(after_20.alternations.size()), "1"},
       {"learn_weights_start_rmse_mm", kMmPerM * after_100.start_rmse_m, "mm"},
       {"learn_weights_rmse_mm_after_20", kMmPerM * after_20.rmse_m, "mm"},

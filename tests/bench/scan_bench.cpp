@@ -10,12 +10,12 @@
 namespace vitruvia::bench {
 namespace {
 
-constexpr int kFrames = 120;  // a third of a turn in 4 s
+constexpr int kScanFrames = 120;  // a third of a turn in 4 s
 
 ScanSceneSettings Scene() {
   ScanSceneSettings scene;
   scene.truth.refinement.subdivisions = 3;
-  scene.frames = kFrames;
+  scene.frames = kScanFrames;
   scene.path.turns = 0.3;
   scene.path.height_cycles = 0.5;
   return scene;
@@ -35,7 +35,7 @@ double MeanDistanceMm(const std::vector<Vector3f>& points, const TriangleMesh& s
 std::vector<Row> Scan() {
   ScanRecorder recorder(Scene());
   std::vector<ScanFrame> frames;
-  for (int i = 0; i < kFrames; ++i) frames.push_back(recorder.Render(i));
+  for (int i = 0; i < kScanFrames; ++i) frames.push_back(recorder.Render(i));
   ScanFusion fusion(ScanFusionSettings{}, recorder.settings().camera,
                     Inverse(frames.front().camera_from_subject));
   std::vector<double> frame_ms;

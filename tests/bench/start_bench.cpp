@@ -11,7 +11,7 @@
 namespace vitruvia::bench {
 namespace {
 
-constexpr int kFrames = 10;
+constexpr int kStartFrames = 10;
 constexpr double kFoundWithin_m = 0.05;
 
 std::unique_ptr<Tracker> SearchingTracker() {
@@ -36,7 +36,7 @@ std::vector<Row> Starts() {
     const StartPerson& person = people[static_cast<std::size_t>(trial.person)];
     const StartPosture& posture = postures[static_cast<std::size_t>(trial.posture)];
     const std::unique_ptr<Tracker> tracker = SearchingTracker();
-    const StartResult r = RunStartTrial(trial, person, posture, *tracker, kFrames);
+    const StartResult r = RunStartTrial(trial, person, posture, *tracker, kStartFrames);
     results.push_back(r);
     first_mm.push_back(1e3 * r.first_error_m);
     last_mm.push_back(1e3 * r.last_error_m);
@@ -44,8 +44,8 @@ std::vector<Row> Starts() {
     if (r.found && !r.swapped && r.first_error_m <= kFoundWithin_m) continue;
     fmt::print("{}, {}, heading {:.0f}: {:.0f} mm, {:.0f} mm after {} frames{}{}; {}\n",
                person.name, posture.name, trial.heading_deg, first_mm.back(), last_mm.back(),
-               kFrames, r.found ? "" : ", not found", r.swapped ? ", left and right swapped" : "",
-               r.message);
+               kStartFrames, r.found ? "" : ", not found",
+               r.swapped ? ", left and right swapped" : "", r.message);
   }
   return {{"starts_found", ShareOf(results, [](const StartResult& r) { return r.found; }), "%"},
           {"starts_within_5_cm",

@@ -17,13 +17,13 @@
 namespace vitruvia::dynamic {
 namespace {
 
-struct Stage : ArmStage {
-  Stage() : ArmStage(2, SkinDualQuaternion, CameraFromStart()) {}
+struct FrameStage : ArmStage {
+  FrameStage() : ArmStage(2, SkinDualQuaternion, CameraFromStart()) {}
 };
 
 TEST(Dynamic, FollowsAMovingArmInEveryMode) {
   for (const Mode mode : {Mode::kFull, Mode::kShapeMatch, Mode::kSmoothBind, Mode::kRigid}) {
-    Stage stage;
+    FrameStage stage;
     Settings settings;
     settings.mode = mode;
     Dynamic tracker(settings, HumanSkeleton());
@@ -40,7 +40,7 @@ TEST(Dynamic, FollowsAMovingArmInEveryMode) {
 }
 
 TEST(Dynamic, FollowsOnASubsetOfVerticesAndPixels) {
-  Stage stage;
+  FrameStage stage;
   Settings settings;
   settings.association.pose_vertex_stride = 4;
   settings.association.pose_pixel_stride = 2;
@@ -53,7 +53,7 @@ TEST(Dynamic, FollowsOnASubsetOfVerticesAndPixels) {
 }
 
 TEST(Dynamic, CarriesPoseAndShapeOverAnEmptyFrameAndGoesOn) {
-  Stage stage;
+  FrameStage stage;
   Dynamic tracker(Settings{}, HumanSkeleton());
   tracker.Start(stage.body, stage.camera);
   const TrackResult before = tracker.TrackFrame(stage.Frame(0, 0.0));
@@ -77,7 +77,7 @@ std::vector<std::string> NamesOf(const std::vector<NamedValue>& energies) {
 TEST(Dynamic, ReportsEveryTermOfItsEnergyInEveryFrame) {
   const std::vector<std::string> names(kEnergyTermNames.begin(), kEnergyTermNames.end());
   for (const Mode mode : {Mode::kFull, Mode::kShapeMatch, Mode::kSmoothBind}) {
-    Stage stage;
+    FrameStage stage;
     Settings settings;
     settings.mode = mode;
     Dynamic tracker(settings, HumanSkeleton());
@@ -100,7 +100,7 @@ TEST(Dynamic, ReportsEveryTermOfItsEnergyInEveryFrame) {
 }
 
 TEST(Dynamic, SaysLostWhenTheDataAreElsewhere) {
-  Stage stage;
+  FrameStage stage;
   Dynamic tracker(Settings{}, HumanSkeleton());
   tracker.Start(stage.body, stage.camera);
   const TrackResult before = tracker.TrackFrame(stage.Frame(0, 0.0));
@@ -115,7 +115,7 @@ TEST(Dynamic, SaysLostWhenTheDataAreElsewhere) {
 // What the frame shows of the body is enough to go on, but an arm is missing.
 TEST(Dynamic, SaysLostWhenAreasAreWatchedAndALimbIsContradicted) {
   const auto outcome_without_arm = [](double lost_above) {
-    Stage stage;
+    FrameStage stage;
     Settings settings;
     settings.watch.lost_above = lost_above;
     Dynamic tracker(settings, HumanSkeleton());
@@ -132,7 +132,7 @@ TEST(Dynamic, SaysLostWhenAreasAreWatchedAndALimbIsContradicted) {
 }
 
 TEST(Dynamic, FewPointsAmongManyOthersDoNotCarryTheBodyAway) {
-  Stage stage;
+  FrameStage stage;
   Dynamic tracker(Settings{}, HumanSkeleton());
   tracker.Start(stage.body, stage.camera);
   const TrackResult before = tracker.TrackFrame(stage.Frame(0, 0.0));
@@ -154,7 +154,7 @@ TEST(Dynamic, FewPointsAmongManyOthersDoNotCarryTheBodyAway) {
 // How far the head's joint is carried off by a plate, some fingers wide, before a quarter of
 // the face, metres.
 double HeadCarriedBy(const Settings& settings) {
-  Stage stage;
+  FrameStage stage;
   Dynamic tracker(settings, HumanSkeleton());
   tracker.Start(stage.body, stage.camera);
   TrackResult result = tracker.TrackFrame(stage.Frame(0, 0.0));
@@ -189,7 +189,7 @@ TEST(Dynamic, RefusesACutoffThatRises) {
 }
 
 TEST(Dynamic, FreezesWhatIsOutOfView) {
-  Stage stage;
+  FrameStage stage;
   Dynamic tracker(Settings{}, HumanSkeleton());
   tracker.Start(stage.body, stage.camera);
   TrackResult before = tracker.TrackFrame(stage.Frame(0, 0.3));
@@ -209,7 +209,7 @@ TEST(Dynamic, FreezesWhatIsOutOfView) {
 }
 
 TEST(Dynamic, DoesNotDriftWhileABodyStands) {
-  Stage stage;
+  FrameStage stage;
   Dynamic tracker(Settings{}, HumanSkeleton());
   tracker.Start(stage.body, stage.camera);
   const DepthFrame frame = stage.Frame(0, 0.2);
@@ -224,7 +224,7 @@ TEST(Dynamic, DoesNotDriftWhileABodyStands) {
 
 // All frames' vertices and energies, the pose step on all vertices or on a quarter of them.
 std::vector<TrackResult> ResultsOn(int threads, int stride) {
-  Stage stage;
+  FrameStage stage;
   Settings settings;
   settings.threads = threads;
   settings.association.pose_vertex_stride = stride;
@@ -254,7 +254,7 @@ TEST(Dynamic, GivesTheSameBitsOnAnyNumberOfThreads) {
 }
 
 TEST(Dynamic, IgnoresPixelsThatAreNoNumbers) {
-  Stage stage;
+  FrameStage stage;
   DepthFrame frame = stage.Frame(0, 0.1);
   DepthFrame damaged = frame;
   for (int u = 0; u < 320; u += 2) {
@@ -268,7 +268,7 @@ TEST(Dynamic, IgnoresPixelsThatAreNoNumbers) {
 }
 
 TEST(Dynamic, RefusesWhatItCannotUse) {
-  Stage stage;
+  FrameStage stage;
   Dynamic tracker(Settings{}, HumanSkeleton());
   EXPECT_THROW(tracker.TrackFrame(stage.Frame(0, 0.0)), std::invalid_argument);  // before Start
   const auto message = [&](const BodyModel& body) -> std::string {

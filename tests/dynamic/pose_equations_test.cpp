@@ -31,8 +31,8 @@ Observations<double> SomeObservations(const Surface<double>& surface) {
   return observations;
 }
 
-struct Stage {
-  Stage(double range_rad, std::uint64_t seed, double moved_away_m = 0.0)
+struct EquationStage {
+  EquationStage(double range_rad, std::uint64_t seed, double moved_away_m = 0.0)
       : body(BlendedBody()),
         tree(HumanSkeleton(), body.skeleton),
         surface(SurfaceOf<double>(SmoothMesh(body))),
@@ -135,7 +135,7 @@ DualQuaternion<double> Derivative(const Twist& twist, const Vector3d& twist_orig
 }
 
 TEST(PoseEquations, AreThoseOfTheDirectJacobianPerJoint) {
-  const Stage stage(1.0, 21);
+  const EquationStage stage(1.0, 21);
   const auto row_of = [&](const Patch& patch, int slot) {
     const Surface<double>& s = stage.surface;
     Vector8 blend = Vector8::Zero();
@@ -194,7 +194,7 @@ JetDualQuaternion JointMotion(const TreeJoint& joint, const Jet& value) {
 }
 
 TEST(PoseEquations, AreThoseOfAutomaticDifferentiation) {
-  const Stage stage(1.3, 22);
+  const EquationStage stage(1.3, 22);
   const KinematicTree& tree = stage.tree;
   ASSERT_LE(tree.joint_count(), kMaxJoints);
   std::vector<JetDualQuaternion> links;
@@ -240,7 +240,7 @@ TEST(PoseEquations, AreThoseOfAutomaticDifferentiation) {
   ExpectSame(stage.Assembled(), stage.Summed(row_of), 1e-9);
 }
 
-PoseEquations AssembledInFloat(const Stage& stage) {
+PoseEquations AssembledInFloat(const EquationStage& stage) {
   auto surface = SurfaceOf<float>(SmoothMesh(stage.body));
   PoseAll(stage.pose, surface);
   Observations<float> observations;
@@ -275,7 +275,7 @@ double LargestEntryError(const PoseEquations& equations, const PoseEquations& re
 // digits with the square of the distance.
 TEST(PoseEquations, InSinglePrecisionHoldForEveryJointAtAnyDistance) {
   for (const double moved_away_m : {0.0, 25.0}) {
-    const Stage stage(0.8, 23, moved_away_m);
+    const EquationStage stage(0.8, 23, moved_away_m);
     const PoseEquations reference = stage.Assembled(), equations = AssembledInFloat(stage);
     EXPECT_LT(LargestEntryError(equations, reference), 1e-4) << moved_away_m << " m";
     EXPECT_LT((equations.gradient - reference.gradient).norm(),

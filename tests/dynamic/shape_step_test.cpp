@@ -54,8 +54,8 @@ TEST(ClosestNeighbors, AreTheClosestAmongThoseTwoEdgesAway) {
 }
 
 // A body in its rest pose before the camera, and points 1 cm before every fourth vertex.
-struct Stage {
-  explicit Stage(int threads)
+struct ShapeStage {
+  explicit ShapeStage(int threads)
       : body(BlendedBody()),
         mesh(SmoothMesh(body)),
         neighbors(ClosestNeighbors(mesh.vertices, mesh.triangles)),
@@ -91,7 +91,7 @@ struct Stage {
 const ShapeWeights kWeights{0.05f, 0.3f};
 
 // The step written down once more, densely and in double.
-std::vector<Vector3d> BruteForceStep(const Stage& s, const std::vector<Vector3d>& warps) {
+std::vector<Vector3d> BruteForceStep(const ShapeStage& s, const std::vector<Vector3d>& warps) {
   std::vector<Vector3d> next(warps.size());
   for (std::size_t v = 0; v < warps.size(); ++v) {
     const int slot = s.surface.layout.slot_of_vertex[v];
@@ -115,7 +115,7 @@ std::vector<Vector3d> BruteForceStep(const Stage& s, const std::vector<Vector3d>
 }
 
 TEST(ShapeStep, DoesWhatTheEquationSays) {
-  Stage stage(1);
+  ShapeStage stage(1);
   std::vector<Vector3d> warps(stage.mesh.vertices.size(), Vector3d::Zero());
   for (int i = 0; i < 3; ++i) {
     const std::vector<Vector3d> expected = BruteForceStep(stage, warps);
@@ -133,7 +133,7 @@ TEST(ShapeStep, DoesWhatTheEquationSays) {
 }
 
 // The three sums of eq. 9, written down once more in double.
-ShapeEnergy BruteForceEnergy(const Stage& s) {
+ShapeEnergy BruteForceEnergy(const ShapeStage& s) {
   ShapeEnergy energy;
   for (int v = 0; v < s.surface.layout.vertex_count(); ++v) {
     const int slot = s.surface.layout.slot_of_vertex[v];
@@ -152,7 +152,7 @@ ShapeEnergy BruteForceEnergy(const Stage& s) {
 }
 
 TEST(ShapeStep, ReportsTheTermsOfItsEnergy) {
-  Stage stage(1);
+  ShapeStage stage(1);
   for (int i = 0; i < 3; ++i) {
     const ShapeEnergy expected = BruteForceEnergy(stage);
     const ShapeEnergy energy =
@@ -167,7 +167,7 @@ TEST(ShapeStep, ReportsTheTermsOfItsEnergy) {
 }
 
 TEST(ShapeStep, LowersItsEnergy) {
-  Stage stage(1);
+  ShapeStage stage(1);
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 10; ++i) {
     const double energy =
@@ -180,7 +180,7 @@ TEST(ShapeStep, LowersItsEnergy) {
 
 TEST(ShapeStep, IsTheSameForAnyNumberOfThreads) {
   for (const int threads : {2, 3, 4}) {
-    Stage one(1), several(threads);
+    ShapeStage one(1), several(threads);
     for (int i = 0; i < 3; ++i) {
       const double expected =
           one.shape.Iterate(one.observations, kWeights, one.team, one.surface).Total();
@@ -196,7 +196,7 @@ TEST(ShapeStep, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(ShapeStep, LetsWarpsShrinkWhenDataVanish) {
-  Stage stage(1);
+  ShapeStage stage(1);
   for (int i = 0; i < 10; ++i) {
     stage.shape.Iterate(stage.observations, kWeights, stage.team, stage.surface);
     stage.Pose();

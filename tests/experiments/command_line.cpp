@@ -14,8 +14,6 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
-const fs::path kConfigs = fs::path(VITRUVIA_SOURCE_DIR) / "configs";
-
 Json RowWithoutClock(Json row) {
   for (const char* key : {"frame_ms_median", "frame_ms_p95", "frame_ms_max", "tracker_memory_mb"}) {
     row.erase(key);

@@ -1,6 +1,7 @@
 // Calls of the command line from tests, and files of small experiments to call it with.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,10 @@
 #include "support/temporary_folder.h"
 
 namespace vitruvia {
+
+// The shipped configurations.
+inline const std::filesystem::path kConfigs =
+    std::filesystem::path(VITRUVIA_SOURCE_DIR) / "configs";
 
 struct CallResult {
   int code;

@@ -38,7 +38,6 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 
-const fs::path kConfigs = fs::path(VITRUVIA_SOURCE_DIR) / "configs";
 constexpr double kLeastOverlap = 0.97;
 constexpr double kFeetWithin_px = 2.0;
 constexpr double kFootRadius_m = 0.2;  // round an ankle

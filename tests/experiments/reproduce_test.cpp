@@ -20,7 +20,6 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-const fs::path kConfigs = fs::path(VITRUVIA_SOURCE_DIR) / "configs";
 const fs::path kList = kConfigs / "reproduction.json";
 
 // Whether the experiment's files are all in the repository; others need data that users bring.

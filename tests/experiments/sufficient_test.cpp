@@ -9,7 +9,6 @@ namespace vitruvia {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path kConfigs = fs::path(VITRUVIA_SOURCE_DIR) / "configs";
 
 class Sufficient : public testing::Test {
  protected:

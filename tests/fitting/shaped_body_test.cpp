@@ -10,7 +10,7 @@ namespace vitruvia {
 namespace {
 
 // A mannequin that may grow: its second coefficient scales it, its first makes it deeper.
-ShapedBody GrowingBody() {
+ShapedBody DeepeningBody() {
   ShapedBody body = RigidShape(Refine(MakeControlBody(BodySettings()), {.subdivisions = 1}), 400);
   const auto rows = static_cast<Eigen::Index>(3 * body.mean.size());
   body.basis.resize(rows, 2);
@@ -86,7 +86,7 @@ TEST(ShapedBody, SurfaceIsSkinnedByForwardKinematics) {
 }
 
 TEST(ShapedBody, RowsAreTheDerivativesOfTheSurface) {
-  const ShapedBody body = GrowingBody();
+  const ShapedBody body = DeepeningBody();
   const BodyState state = SomeState();
   PosedBody posed(body), moved(body);
   posed.Set(state);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kMostUnusual = 3.0;
 
-const ShapeSpace& Space() {
+const ShapeSpace& WholeSpace() {
   static const ShapeSpace space = [] {
     std::vector<int> all(SmallDatabase().subjects.size());
     for (std::size_t s = 0; s < all.size(); ++s) all[s] = static_cast<int>(s);
@@ -19,7 +19,7 @@ const ShapeSpace& Space() {
 }
 
 BodyModel BodyOf(const KnownAttributes& known) {
-  return SizedBody(Space(), ShapeOfSize(Space(), known, 8, kMostUnusual), known.sex);
+  return SizedBody(WholeSpace(), ShapeOfSize(WholeSpace(), known, 8, kMostUnusual), known.sex);
 }
 
 TEST(SizedBody, HasTheHeightThatIsKnownFromSmallChildToTallMan) {
@@ -38,16 +38,16 @@ TEST(SizedBody, HasTheWeightThatIsKnown) {
 }
 
 TEST(SizedBody, IsTheMeanWhereNothingIsKnown) {
-  const SizedShape shape = ShapeOfSize(Space(), {}, 8, kMostUnusual);
+  const SizedShape shape = ShapeOfSize(WholeSpace(), {}, 8, kMostUnusual);
   EXPECT_EQ(shape.theta.norm(), 0.0);
   EXPECT_EQ(shape.scale, 1.0);
 }
 
 TEST(SizedBody, StaysWithinTheSpaceAndIsScaledBeyond) {
-  const SizedShape child = ShapeOfSize(Space(), {1.0, {}, {}}, 8, kMostUnusual);
+  const SizedShape child = ShapeOfSize(WholeSpace(), {1.0, {}, {}}, 8, kMostUnusual);
   EXPECT_LE(child.theta.norm(), kMostUnusual + 1e-9);
   EXPECT_LT(child.scale, 0.8);
-  const SizedShape usual = ShapeOfSize(Space(), {1.72, {}, {}}, 8, kMostUnusual);
+  const SizedShape usual = ShapeOfSize(WholeSpace(), {1.72, {}, {}}, 8, kMostUnusual);
   EXPECT_NEAR(usual.scale, 1.0, 0.02);
 }
 

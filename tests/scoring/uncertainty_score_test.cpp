@@ -12,7 +12,7 @@
 namespace vitruvia {
 namespace {
 
-constexpr int kFrames = 400;
+constexpr int kUncertainFrames = 400;
 
 // Joints whose errors are drawn from the covariance that is stored with them, times `factor`.
 RunRecord ScoredWithErrors(double factor) {
@@ -20,14 +20,14 @@ RunRecord ScoredWithErrors(double factor) {
   const BodyModel body = TinyBody();
   SequenceInfo info;
   info.camera = {8, 6, 5.0, 5.0, 3.5, 2.5};
-  info.frames = kFrames;
+  info.frames = kUncertainFrames;
   info.surface = info.subject = false;
   for (const BoneInfo& bone : Bones()) info.joints.emplace_back(bone.joint);
   SequenceWriter writer(folder / "sequence", info, std::nullopt);
   EstimateWriter estimate(folder / "estimate", body.rest);
   const Vector3d deviations_m(0.01, 0.02, 0.03);
   RandomStream random(1, "errors");
-  for (int frame = 0; frame < kFrames; ++frame) {
+  for (int frame = 0; frame < kUncertainFrames; ++frame) {
     JointTruth truth;
     TrackResult result;
     result.outcome = Outcome::kConverged;

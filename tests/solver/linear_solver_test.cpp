@@ -8,7 +8,7 @@
 namespace vitruvia {
 namespace {
 
-constexpr int kUnknowns = 30;
+constexpr int kSolved = 30;
 constexpr LinearSolverKind kAll[] = {
     LinearSolverKind::kConjugateGradients, LinearSolverKind::kPreconditionedConjugateGradients,
     LinearSolverKind::kDenseCholesky, LinearSolverKind::kSparseCholesky};
@@ -17,15 +17,15 @@ constexpr LinearSolverKind kAll[] = {
 Eigen::MatrixXd MatrixOfCondition(double condition) {
   RandomStream random(2, "matrix");
   const Eigen::MatrixXd noise = Eigen::MatrixXd::NullaryExpr(
-      kUnknowns, kUnknowns, [&](Eigen::Index, Eigen::Index) { return random.Normal(); });
+      kSolved, kSolved, [&](Eigen::Index, Eigen::Index) { return random.Normal(); });
   const Eigen::MatrixXd q = noise.householderQr().householderQ();
-  Eigen::VectorXd eigenvalues = Eigen::VectorXd::LinSpaced(kUnknowns, 1.0, condition);
+  Eigen::VectorXd eigenvalues = Eigen::VectorXd::LinSpaced(kSolved, 1.0, condition);
   return q * eigenvalues.asDiagonal() * q.transpose();
 }
 
 TEST(LinearSolver, AllKindsSolveToTheirPrecision) {
   const Eigen::MatrixXd a = MatrixOfCondition(50.0);
-  const Eigen::VectorXd expected = Eigen::VectorXd::LinSpaced(kUnknowns, -1.0, 2.0);
+  const Eigen::VectorXd expected = Eigen::VectorXd::LinSpaced(kSolved, -1.0, 2.0);
   for (const LinearSolverKind kind : kAll) {
     for (const Precision precision : {Precision::kDouble, Precision::kFloat}) {
       const auto solver =
@@ -42,16 +42,16 @@ TEST(LinearSolver, CholeskyRefusesWhatIsNotPositiveDefinite) {
   Eigen::MatrixXd a = MatrixOfCondition(10.0);
   a(3, 3) = -5.0;
   for (const auto kind : {LinearSolverKind::kDenseCholesky, LinearSolverKind::kSparseCholesky}) {
-    Eigen::VectorXd x = Eigen::VectorXd::Ones(kUnknowns);
-    EXPECT_EQ(MakeLinearSolver({.kind = kind})->Solve(a, Eigen::VectorXd::Ones(kUnknowns), x),
+    Eigen::VectorXd x = Eigen::VectorXd::Ones(kSolved);
+    EXPECT_EQ(MakeLinearSolver({.kind = kind})->Solve(a, Eigen::VectorXd::Ones(kSolved), x),
               SolveStatus::kNotPositiveDefinite);
-    EXPECT_EQ(x, Eigen::VectorXd::Zero(kUnknowns));
+    EXPECT_EQ(x, Eigen::VectorXd::Zero(kSolved));
   }
 }
 
 TEST(LinearSolver, ConjugateGradientsSayWhetherTheyReachedTheirTolerance) {
   const Eigen::MatrixXd a = MatrixOfCondition(400.0);
-  const Eigen::VectorXd b = Eigen::VectorXd::Ones(kUnknowns);
+  const Eigen::VectorXd b = Eigen::VectorXd::Ones(kSolved);
   for (const auto kind : {LinearSolverKind::kConjugateGradients,
                           LinearSolverKind::kPreconditionedConjugateGradients}) {
     Eigen::VectorXd x;
@@ -70,16 +70,16 @@ TEST(LinearSolver, ConjugateGradientsRefuseWhatIsNotPositiveDefinite) {
   a(3, 3) = -5.0;
   for (const auto kind : {LinearSolverKind::kConjugateGradients,
                           LinearSolverKind::kPreconditionedConjugateGradients}) {
-    Eigen::VectorXd x = Eigen::VectorXd::Ones(kUnknowns);
-    EXPECT_EQ(MakeLinearSolver({.kind = kind})->Solve(a, Eigen::VectorXd::Ones(kUnknowns), x),
+    Eigen::VectorXd x = Eigen::VectorXd::Ones(kSolved);
+    EXPECT_EQ(MakeLinearSolver({.kind = kind})->Solve(a, Eigen::VectorXd::Ones(kSolved), x),
               SolveStatus::kNotPositiveDefinite);
-    EXPECT_EQ(x, Eigen::VectorXd::Zero(kUnknowns));
+    EXPECT_EQ(x, Eigen::VectorXd::Zero(kSolved));
   }
 }
 
 TEST(LinearSolver, EstimatesTheCondition) {
   const Eigen::MatrixXd a = MatrixOfCondition(400.0);
-  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(kUnknowns, -1.0, 2.0);
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(kSolved, -1.0, 2.0);
   Eigen::VectorXd x;
   const auto cg = MakeLinearSolver(
       {.kind = LinearSolverKind::kConjugateGradients, .relative_tolerance = 1e-14});
@@ -91,7 +91,7 @@ TEST(LinearSolver, EstimatesTheCondition) {
   EXPECT_EQ(cholesky->EstimateCondition(), -1.0);
   cholesky->Solve(a, b, x);
   EXPECT_GT(cholesky->EstimateCondition(), 400.0);
-  EXPECT_LT(cholesky->EstimateCondition(), 400.0 * kUnknowns);
+  EXPECT_LT(cholesky->EstimateCondition(), 400.0 * kSolved);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ using testing::HasSubstr;
 
 constexpr RefinementSettings kTemplate{.subdivisions = kMannequinSteps};
 
-BodySettings Person(Sex sex, double height_m, double weight_kg) {
+BodySettings Mannequin(Sex sex, double height_m, double weight_kg) {
   BodySettings settings;
   settings.sex = sex;
   settings.height_m = height_m;
@@ -33,7 +33,7 @@ BodySettings Person(Sex sex, double height_m, double weight_kg) {
 }
 
 BodySettings MeanPerson(Sex sex) {
-  return Person(sex, Survey(sex).stature_m, Survey(sex).weight_kg);
+  return Mannequin(sex, Survey(sex).stature_m, Survey(sex).weight_kg);
 }
 
 struct Someone {
@@ -55,7 +55,7 @@ const std::vector<Someone>& Crowd() {
                                                 {1.75, 150.0},
                                                 {2.1, 70.0},
                                                 {2.1, 160.0}}) {
-        const BodySettings settings = Person(sex, height_m, weight_kg);
+        const BodySettings settings = Mannequin(sex, height_m, weight_kg);
         const ControlBody control = MakeControlBody(settings);
         people.push_back({settings, control, Refine(control, kTemplate)});
       }
@@ -137,12 +137,12 @@ TEST(Mannequin, HasOneTopologyForEverybody) {
 
 TEST(Mannequin, DiffersBetweenSubjects) {
   const auto volume = [](Sex sex, double weight_kg) {
-    return EnclosedVolume(Refine(MakeControlBody(Person(sex, 1.7, weight_kg)), kTemplate).rest);
+    return EnclosedVolume(Refine(MakeControlBody(Mannequin(sex, 1.7, weight_kg)), kTemplate).rest);
   };
   EXPECT_LT(volume(Sex::kMale, 60.0), 0.81 * volume(Sex::kMale, 75.0));
   // Of one height and weight, she has the broader hips for her waist.
   const auto waist_to_hip = [](Sex sex) {
-    const BodyModel body = Refine(MakeControlBody(Person(sex, 1.7, 68.0)), kTemplate);
+    const BodyModel body = Refine(MakeControlBody(Mannequin(sex, 1.7, 68.0)), kTemplate);
     const auto all = [](const Vector3d&) { return true; };
     return TapeGirth(body.rest, {0, 0.602 * 1.7, 0}, Vector3d::UnitY(), all) /
            TapeGirth(body.rest, {0, 0.508 * 1.7, 0}, Vector3d::UnitY(), all);
@@ -151,7 +151,7 @@ TEST(Mannequin, DiffersBetweenSubjects) {
 }
 
 TEST(Mannequin, MirrorsExactly) {
-  const ControlBody control = MakeControlBody(Person(Sex::kFemale, 1.65, 60.0));
+  const ControlBody control = MakeControlBody(Mannequin(Sex::kFemale, 1.65, 60.0));
   const auto mirrored_weights = [](const Eigen::RowVectorXf& row) {
     Eigen::RowVectorXf result(kBoneCount);
     for (int bone = 0; bone < kBoneCount; ++bone) result[Bones()[bone].mirror] = row[bone];
@@ -295,8 +295,8 @@ TEST(Mannequin, KeepsItsVolumeWhenKneesAndElbowsBend) {
 }
 
 TEST(Mannequin, RefusesWhatNoBodyIs) {
-  EXPECT_THROW(MakeControlBody(Person(Sex::kMale, 2.0, 40.0)), ConfigError);
-  EXPECT_THROW(MakeControlBody(Person(Sex::kFemale, 1.2, 150.0)), ConfigError);
+  EXPECT_THROW(MakeControlBody(Mannequin(Sex::kMale, 2.0, 40.0)), ConfigError);
+  EXPECT_THROW(MakeControlBody(Mannequin(Sex::kFemale, 1.2, 150.0)), ConfigError);
   try {
     ReadSettings<BodySettings>(Json::parse(R"({"height_m": 2.0, "weight_kg": 40})"),
                                {"s.json", ""});

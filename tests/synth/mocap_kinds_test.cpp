@@ -21,15 +21,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
-constexpr double kSame = 1e-7;
-
-Matrix3d Turn(double degrees, const Vector3d& axis) {
-  return ExpSo3<double>(kRadiansPerDegree * degrees * axis);
-}
-
-constexpr std::size_t Index(BoneId bone) { return static_cast<std::size_t>(bone); }
-
 std::string Replaced(std::string text, const std::string& before, const std::string& after) {
   const std::size_t at = text.find(before);
   EXPECT_NE(at, std::string::npos) << before;
@@ -42,10 +33,6 @@ std::string ReplacedAll(std::string text, const std::string& before, const std::
     text.replace(at, before.size(), after);
   }
   return text;
-}
-
-std::string RefusalOfBvh(const std::string& text, const MocapSettings& settings = {}) {
-  return RefusalOf([&] { FromBvh(text, TestSkeleton(), settings); });
 }
 
 const std::unique_ptr<Motion>& PlainWriggle() {

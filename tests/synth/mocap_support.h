@@ -1,8 +1,11 @@
 // Loading of clips that a test has written, and comparisons of motions.
 #pragma once
 
+#include <numbers>
+
 #include <gtest/gtest.h>
 
+#include "math/rotation.h"
 #include "mocap_files.h"
 #include "motion_files.h"
 
@@ -35,6 +38,20 @@ std::string RefusalOf(Load&& load) {
   }
   return "accepted";
 }
+
+inline std::string RefusalOfBvh(const std::string& text, const MocapSettings& settings = {}) {
+  return RefusalOf([&] { FromBvh(text, TestSkeleton(), settings); });
+}
+
+inline constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+// Motions that differ by less than this are one motion (Difference()).
+inline constexpr double kSame = 1e-7;
+
+inline Matrix3<double> Turn(double degrees, const Vector3<double>& axis) {
+  return ExpSo3<double>(kRadiansPerDegree * degrees * axis);
+}
+
+constexpr std::size_t Index(BoneId bone) { return static_cast<std::size_t>(bone); }
 
 // The largest difference of bone rotations, places (m) and clearances (m) at nine times.
 inline double Difference(const Motion& a, const Motion& b) {

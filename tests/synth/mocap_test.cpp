@@ -20,12 +20,6 @@ using enum BoneId;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
-
-Matrix3d Turn(double degrees, const Vector3d& axis) {
-  return ExpSo3<double>(kRadiansPerDegree * degrees * axis);
-}
-
 // Each bone's rotation from the rest pose in the subject's axes.
 std::array<Matrix3d, kBoneCount> Turned(const MotionSample& sample) {
   std::array<Matrix3d, kBoneCount> turned;

@@ -17,14 +17,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-constexpr double kSame = 1e-7;
-
-constexpr std::size_t Index(BoneId bone) { return static_cast<std::size_t>(bone); }
-
-std::string RefusalOfBvh(const std::string& text, const MocapSettings& settings = {}) {
-  return RefusalOf([&] { FromBvh(text, TestSkeleton(), settings); });
-}
-
 std::vector<std::string> WarningsOf(const std::string& text) { return FromBvh(text)->warnings(); }
 
 std::vector<TestFrame> WithRootsTimes(double factor, std::vector<TestFrame> frames) {

@@ -2,11 +2,17 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 
 #include "geometry/camera.h"
 #include "geometry/image.h"
 
 namespace vitruvia {
+
+inline constexpr double kDegree = std::numbers::pi / 180.0;
+// Long focal length: the angle hardly changes over the image. Pixels are the sensor's own.
+inline const PinholeCamera kNarrow{
+    .width = 101, .height = 401, .fx = 580, .fy = 580, .cx = 50, .cy = 200};
 
 // A plane through (0, 0, z_m) that is turned by angle_rad about the vertical: at the image's centre
 // the angle between its normal and the ray is angle_rad.

@@ -12,12 +12,8 @@
 namespace vitruvia {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-// Long focal length: the angle hardly changes over the image. Pixels are the sensor's own.
-const PinholeCamera kNarrow{.width = 101, .height = 401, .fx = 580, .fy = 580, .cx = 50, .cy = 200};
-
-DepthImage Measured(const DepthImage& truth, const PinholeCamera& camera,
-                    const StructuredLightSettings& settings = {}, std::uint64_t seed = 1) {
+DepthImage LightMeasured(const DepthImage& truth, const PinholeCamera& camera,
+                         const StructuredLightSettings& settings = {}, std::uint64_t seed = 1) {
   RandomStream random(seed, "test");
   return MeasureByStructuredLight(truth, camera, settings, 1, random);
 }
@@ -75,7 +71,8 @@ TEST(StructuredLight, DeviationIsThePublishedOneAtEveryDepthAndAngle) {
     for (const double angle : {0.0, 45.0, 70.0}) {
       const DepthImage truth = Plane(kNarrow, z, angle * kDegree);
       // Close to the centre, where depth and angle are still those asked for.
-      const ErrorStatistics errors = ErrorsNearCenter(Measured(truth, kNarrow), truth, kNarrow, 2);
+      const ErrorStatistics errors =
+          ErrorsNearCenter(LightMeasured(truth, kNarrow), truth, kNarrow, 2);
       const double expected = AxialDeviation({}, z, angle * kDegree);
       EXPECT_EQ(errors.lost, 0);
       const double sampling = expected / std::sqrt(2.0 * errors.count);
@@ -97,7 +94,7 @@ TEST(StructuredLight, EdgesMoveByTheLateralDeviation) {
   StructuredLightSettings settings;
   settings.edge_loss = 0.0;
   settings.lateral_base_px = 3.0;
-  const DepthImage measured = Measured(half, camera, settings);
+  const DepthImage measured = LightMeasured(half, camera, settings);
   // A pixel d columns beyond the edge is measured when its shift reaches back over it.
   for (const int d : {1, 3, 5}) {
     int seen = 0;
@@ -120,7 +117,7 @@ TEST(StructuredLight, LosesItsShareOfEdgePixelsAndNoneInside) {
   StructuredLightSettings settings;
   settings.lateral_base_px = settings.lateral_slope_px = 0.0;
   settings.edge_loss = 0.3;
-  const DepthImage measured = Measured(half, camera, settings);
+  const DepthImage measured = LightMeasured(half, camera, settings);
   int at_edge = 0, inside = 0;
   for (int v = 0; v < half.height(); ++v) {
     at_edge += measured(99, v) == 0.0f ? 1 : 0;
@@ -160,7 +157,7 @@ TEST(StructuredLight, ASmoothSurfaceCastsNoShadowOnItself) {
 
 TEST(StructuredLight, MeasuresNothingOutOfRangeOrAtGrazingAngles) {
   const auto measured_pixels = [](const DepthImage& truth) {
-    const DepthImage measured = Measured(truth, kNarrow);
+    const DepthImage measured = LightMeasured(truth, kNarrow);
     int count = 0;
     for (const float z : measured.pixels()) count += z > 0.0f ? 1 : 0;
     return count;
@@ -169,13 +166,15 @@ TEST(StructuredLight, MeasuresNothingOutOfRangeOrAtGrazingAngles) {
   EXPECT_EQ(measured_pixels(DepthImage(101, 401, 0.3f)), 0);
   EXPECT_EQ(measured_pixels(DepthImage(101, 401, 9.0f)), 0);
   const DepthImage steep = Plane(kNarrow, 2.0, 85 * kDegree);
-  EXPECT_EQ(Measured(steep, kNarrow)(50, 200), 0.0f);
+  EXPECT_EQ(LightMeasured(steep, kNarrow)(50, 200), 0.0f);
 }
 
 TEST(StructuredLight, SeedDecidesAndNothingElse) {
   const DepthImage truth = Plane(kNarrow, 2.0, 0.3);
-  EXPECT_EQ(Measured(truth, kNarrow, {}, 5).pixels(), Measured(truth, kNarrow, {}, 5).pixels());
-  EXPECT_NE(Measured(truth, kNarrow, {}, 5).pixels(), Measured(truth, kNarrow, {}, 6).pixels());
+  EXPECT_EQ(LightMeasured(truth, kNarrow, {}, 5).pixels(),
+            LightMeasured(truth, kNarrow, {}, 5).pixels());
+  EXPECT_NE(LightMeasured(truth, kNarrow, {}, 5).pixels(),
+            LightMeasured(truth, kNarrow, {}, 6).pixels());
 }
 
 }  // namespace

@@ -10,11 +10,8 @@
 namespace vitruvia {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-const PinholeCamera kNarrow{.width = 101, .height = 401, .fx = 580, .fy = 580, .cx = 50, .cy = 200};
-
-DepthImage Measured(const DepthImage& truth, const PinholeCamera& camera,
-                    const TimeOfFlightSettings& settings = {}, std::uint64_t seed = 1) {
+DepthImage FlightMeasured(const DepthImage& truth, const PinholeCamera& camera,
+                          const TimeOfFlightSettings& settings = {}, std::uint64_t seed = 1) {
   RandomStream random(seed, "test");
   return MeasureByTimeOfFlight(truth, camera, settings, 1, random);
 }
@@ -43,7 +40,7 @@ TEST(TimeOfFlight, DeviationIsTheFormulasAtEveryDepthAndAngle) {
     for (const double angle : {0.0, 45.0, 70.0}) {
       const DepthImage truth = Plane(kNarrow, z, angle * kDegree);
       const ErrorStatistics errors =
-          ErrorsNearCenter(Measured(truth, kNarrow, settings), truth, kNarrow, 2);
+          ErrorsNearCenter(FlightMeasured(truth, kNarrow, settings), truth, kNarrow, 2);
       const double expected = AxialDeviation(settings, z, angle * kDegree, 0.0);
       EXPECT_EQ(errors.lost, 0);
       EXPECT_NEAR(errors.deviation_m, expected,
@@ -58,7 +55,7 @@ TEST(TimeOfFlight, FlyingPixelsLieBetweenTheSurfacesThatMeet) {
   TimeOfFlightSettings settings;
   settings.flying_share = 0.5;
   settings.flying_reach_m = 0.3;
-  const DepthImage measured = Measured(Post(kNarrow, 2.2f), kNarrow, settings);
+  const DepthImage measured = FlightMeasured(Post(kNarrow, 2.2f), kNarrow, settings);
   int between = 0;
   for (int v = 0; v < kNarrow.height; ++v) {
     for (const int u : {39, 40, 60, 61}) {
@@ -79,7 +76,7 @@ TEST(TimeOfFlight, FlyingPixelsTrailBehindASurfaceBeforeNothing) {
   TimeOfFlightSettings settings;
   settings.flying_share = 1.0;
   settings.flying_reach_m = 0.3;
-  const DepthImage measured = Measured(Post(kNarrow, 0.0f), kNarrow, settings);
+  const DepthImage measured = FlightMeasured(Post(kNarrow, 0.0f), kNarrow, settings);
   double sum = 0.0;
   for (int v = 0; v < kNarrow.height; ++v) {
     ASSERT_GT(measured(39, v), 1.98f);
@@ -89,21 +86,23 @@ TEST(TimeOfFlight, FlyingPixelsTrailBehindASurfaceBeforeNothing) {
   }
   EXPECT_NEAR(sum / kNarrow.height, 2.15, 4 * 0.3 / std::sqrt(12.0 * kNarrow.height));
   settings.flying_share = 0.0;
-  EXPECT_EQ(Measured(Post(kNarrow, 0.0f), kNarrow, settings)(39, 200), 0.0f);
+  EXPECT_EQ(FlightMeasured(Post(kNarrow, 0.0f), kNarrow, settings)(39, 200), 0.0f);
 }
 
 TEST(TimeOfFlight, MeasuresNothingOutOfRangeOrAtGrazingAngles) {
   for (const float z : {0.0f, 0.4f, 8.5f}) {
-    const DepthImage depth = Measured(DepthImage(101, 401, z), kNarrow);
+    const DepthImage depth = FlightMeasured(DepthImage(101, 401, z), kNarrow);
     for (const float d : depth.pixels()) ASSERT_EQ(d, 0.0f) << z;
   }
-  EXPECT_EQ(Measured(Plane(kNarrow, 2.0, 83 * kDegree), kNarrow)(50, 200), 0.0f);
+  EXPECT_EQ(FlightMeasured(Plane(kNarrow, 2.0, 83 * kDegree), kNarrow)(50, 200), 0.0f);
 }
 
 TEST(TimeOfFlight, SeedDecidesAndNothingElse) {
   const DepthImage truth = Plane(kNarrow, 2.0, 0.3);
-  EXPECT_EQ(Measured(truth, kNarrow, {}, 5).pixels(), Measured(truth, kNarrow, {}, 5).pixels());
-  EXPECT_NE(Measured(truth, kNarrow, {}, 5).pixels(), Measured(truth, kNarrow, {}, 6).pixels());
+  EXPECT_EQ(FlightMeasured(truth, kNarrow, {}, 5).pixels(),
+            FlightMeasured(truth, kNarrow, {}, 5).pixels());
+  EXPECT_NE(FlightMeasured(truth, kNarrow, {}, 5).pixels(),
+            FlightMeasured(truth, kNarrow, {}, 6).pixels());
 }
 
 }  // namespace
