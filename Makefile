@@ -109,7 +109,7 @@ build/build.ninja: CMakePresets.json | check-build
 build-%/build.ninja: CMakePresets.json | check-build-%
 	@cmake --preset $* || { echo "If a package is missing, make packages installs it." >&2; exit 1; }
 
-CHECKS := $(addprefix check-,build build-dev build-debug build-sanitize)
+CHECKS := $(addprefix check-,build build-dev build-debug build-sanitize build-tidy)
 $(CHECKS): check-%:
 	@cmake/check_build_folder.sh $*
 
