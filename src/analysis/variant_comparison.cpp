@@ -138,7 +138,7 @@ VariantComparison Compared(const PairedRuns& paired, const Metric& metric) {
   return row;
 }
 
-void AdjustTogether(std::vector<VariantComparison*> rows) {
+void AdjustTogether(const std::vector<VariantComparison*>& rows) {
   std::vector<PairedComparison*> comparisons;
   for (VariantComparison* row : rows) comparisons.push_back(&row->comparison);
   AdjustByHolm(comparisons, BootstrapSettings{}.confidence);

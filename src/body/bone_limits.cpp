@@ -42,7 +42,7 @@ std::array<BoneLimits, kBoneCount> MakeLimits() {
   std::array<BoneLimits, kBoneCount> limits;
   limits.fill(Limits({}, {}, {}));
   const auto of = [&](BoneId bone, int step = 0) -> BoneLimits& {
-    return limits[static_cast<std::size_t>(static_cast<int>(bone) + step)];
+    return limits[static_cast<std::size_t>(bone) + static_cast<std::size_t>(step)];
   };
   const auto midline = [](int angle, double share) {
     return Scaled(RangeOf(MidlineJoints(), angle), share);

@@ -83,7 +83,7 @@ void MakeFolder(const fs::path& folder) {
 fs::path TemporaryDirectory() {
   const char* variable = std::getenv("TMPDIR");
   const bool is_set = variable != nullptr && *variable != '\0';
-  const fs::path folder = is_set ? variable : "/tmp";
+  fs::path folder = is_set ? variable : "/tmp";
   std::error_code ignored;
   if (fs::is_directory(folder, ignored)) return folder;
   throw RunError(fmt::format(

@@ -43,8 +43,7 @@ DepthImage FarDepths(const std::vector<const DepthImage*>& frames, double share,
       far.pixels()[i] = kBeyondRange;
       continue;
     }
-    const auto at = depths.begin() + static_cast<std::ptrdiff_t>(
-                                         share * static_cast<double>(depths.size() - 1) + 0.5);
+    const auto at = depths.begin() + std::lround(share * static_cast<double>(depths.size() - 1));
     std::nth_element(depths.begin(), at, depths.end());
     far.pixels()[i] = *at;
   }
@@ -88,8 +87,8 @@ std::vector<Vector3f> SampledPoints(const std::vector<const DepthImage*>& frames
     const auto pixel = static_cast<int>(random.Index(pixels));
     const float z = frame.pixels()[static_cast<std::size_t>(pixel)];
     if (!(z > 0.0f) || z > settings.far_m) continue;
-    points.push_back(camera.Unproject(static_cast<float>(pixel % camera.width),
-                                      static_cast<float>(pixel / camera.width), z));
+    const int u = pixel % camera.width, v = pixel / camera.width;
+    points.push_back(camera.Unproject(static_cast<float>(u), static_cast<float>(v), z));
   }
   return points;
 }

@@ -28,7 +28,7 @@ class CommandLine : public testing::Test {
 
   // A sequence of the tiny scene, fresh for a test to damage.
   std::string Sequence() const {
-    const std::string sequence = File("sequence");
+    std::string sequence = File("sequence");
     EXPECT_EQ(Call({"synth", File("scene.json"), "-o", sequence}).code, 0);
     return sequence;
   }

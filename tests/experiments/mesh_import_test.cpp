@@ -71,7 +71,7 @@ class MeshImport : public testing::Test {
     ASSERT_EQ(vertices.size(), expected.size());
     for (std::size_t v = 0; v < vertices.size(); ++v)
       ASSERT_NEAR((vertices[v] - expected[v]).norm(), 0.0, within_m);
-    const JointTruth joints = imported.true_joints(i);
+    const JointTruth& joints = imported.true_joints(i);
     for (std::size_t j = 0; j < joints.positions.size(); ++j) {
       EXPECT_NEAR((joints.positions[j] - original_->true_joints(i).positions[j]).norm(), 0.0, 0.01)
           << imported.info().joints[j];

@@ -43,7 +43,7 @@ TEST_F(SharedSweep, ShardsJobsAndOneByOneGiveTheSameResult) {
   const Json result = ResultOf(files_ / "single");
   EXPECT_EQ(result.at("rows").size(), 4u);
   EXPECT_EQ(ResultOf(files_ / "shards"), result);
-  const Json variants = result.at("variants");
+  const Json& variants = result.at("variants");
   EXPECT_EQ(variants.at("reference"), "axis_weight=1");
   ASSERT_EQ(variants.at("rows").size(), 2u);
   EXPECT_EQ(variants["rows"][1]["runs"], 2);

@@ -68,7 +68,9 @@ TEST_F(MeshIo, WritesLittleEndianBinaryPly) {
   EXPECT_THAT(content, HasSubstr("format binary_little_endian 1.0"));
   const std::size_t body = content.find("end_header\n") + 11;
   ASSERT_EQ(content.size() - body, 50 * 12 + 7 * 13u);
-  EXPECT_EQ(std::memcmp(content.data() + body, mesh.vertices.front().data(), 12), 0);
+  Vector3f first;
+  std::memcpy(first.data(), content.data() + body, 12);
+  EXPECT_EQ(first, mesh.vertices.front());
 }
 
 TEST_F(MeshIo, TakesExtensionsInCapitals) {

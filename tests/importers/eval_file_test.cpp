@@ -115,7 +115,7 @@ TEST_F(EvalFiles, DamagedFramesAreRefusedWithTheirPlace) {
   const auto refusal = [this](void (*damage)(EvalFrameBytes & frame)) {
     std::vector<EvalFrameBytes> frames = TwoFrames();
     damage(frames[1]);
-    const std::string text = Refusal(frames);
+    std::string text = Refusal(frames);
     EXPECT_THAT(text, StartsWith(file_.string() + ": frame 1, byte ")) << text;
     return text;
   };

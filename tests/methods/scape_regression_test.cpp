@@ -54,7 +54,7 @@ class ScapeBodyOfATinyBody : public ::testing::Test {
   const BodyModel body = TinyBody(3);
   const PoseRegression regression = SomeRegression(body, 0.05);
   const ScapeBody scape{body, regression};
-  const PinholeCamera camera;
+  const PinholeCamera camera{};
   ZBuffer zbuffer{camera};
 };
 

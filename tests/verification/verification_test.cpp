@@ -97,13 +97,15 @@ TEST_F(Verification, NothingIsFoundWhereAllIsRight) {
 }
 
 TEST_F(Verification, DepthOfAnotherUnitIsNamedByItsFactor) {
-  const std::pair<double, const char*> kFactors[] = {{10.0, "10 times too large"},
-                                                     {1000.0, "1000 times too large"},
-                                                     {5.0, "5 times too large"},
-                                                     {0.5, "2 times too small"}};
-  for (const auto& [factor, words] : kFactors) {
-    Edit("sequence.json", [&](Json& json) { json["depth_unit_m"] = 0.001 * factor; });
-    Expect(Severity::kError, {"depth/: depth and true surface disagree", words, "depth_unit_m"});
+  struct Unit {
+    double factor;
+    const char* words;
+  };
+  for (const Unit& unit : {Unit{10.0, "10 times too large"}, Unit{1000.0, "1000 times too large"},
+                           Unit{5.0, "5 times too large"}, Unit{0.5, "2 times too small"}}) {
+    Edit("sequence.json", [&](Json& json) { json["depth_unit_m"] = 0.001 * unit.factor; });
+    Expect(Severity::kError,
+           {"depth/: depth and true surface disagree", unit.words, "depth_unit_m"});
   }
 }
 

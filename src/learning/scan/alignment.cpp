@@ -22,7 +22,7 @@ double Condition(const Matrix6d& a) {
   scale.head<3>().setConstant(1.0 / kBodyRadiusM);
   const Matrix6d scaled = scale.asDiagonal() * a * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(scaled, Eigen::EigenvaluesOnly);
-  const Vector6d values = solver.eigenvalues();
+  const Vector6d& values = solver.eigenvalues();
   return values[0] > 0.0 ? values[5] / values[0] : std::numeric_limits<double>::infinity();
 }
 
