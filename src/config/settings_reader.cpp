@@ -245,8 +245,8 @@ class Reader final : public Fields {
     static constexpr std::size_t kNoItem = static_cast<std::size_t>(-1);
     const char* key;
     std::size_t item = kNoItem;
-    explicit Place(const char* of_key, std::size_t of_item = kNoItem)
-        : key(of_key), item(of_item) {}
+    // NOLINTNEXTLINE(google-explicit-constructor): a key is a place
+    Place(const char* of_key, std::size_t of_item = kNoItem) : key(of_key), item(of_item) {}
     std::string text() const { return item == kNoItem ? key : fmt::format("{}[{}]", key, item); }
   };
 
