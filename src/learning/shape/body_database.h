@@ -3,9 +3,8 @@
 // On disk, a folder:
 //   database.json   format, version, subjects (name, height, weight, sex, joints, tips), provenance
 //   vertices.bin    float32 [subjects][vertices][3], T-pose, subject frame, metres, little-endian
-//   reference/      a body (body/body_model.h) of the database's topology; its weights are the
-//   rig's poses/NAME.bin  optional, float32 [poses][vertices][3]: examples of subject NAME in other
-//   poses
+//   reference/      a body (body/body_model.h) of the database's topology, with the rig's weights
+//   poses/NAME.bin  optional, float32 [poses][vertices][3]: subject NAME in other poses
 #pragma once
 
 #include <filesystem>
