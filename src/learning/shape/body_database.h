@@ -1,4 +1,5 @@
-// A body database: many people's surfaces in one topology, with what is known of each person.
+// A body database: many people's surfaces in one topology, with each person's attributes and
+// skeleton.
 //
 // On disk, a folder:
 //   database.json   format, version, subjects (name, height, weight, sex, joints, tips), provenance
@@ -41,7 +42,7 @@ struct BodyDatabase {
 std::size_t MostAverage(const std::vector<DatabaseSubject>& subjects);
 
 // DataError naming the subject: fewer than two subjects, another number of vertices than the
-// reference, vertices that are not finite, a name that stands twice.
+// reference, vertices that are not finite, a duplicate name.
 void CheckBodyDatabase(const BodyDatabase& database, const std::string& where);
 
 void WriteBodyDatabase(const std::filesystem::path& folder, const BodyDatabase& database);
