@@ -3,8 +3,8 @@
 
 namespace vitruvia {
 
-// Parses and carries out one command. Never throws: an error is printed to standard error with its
-// context, and the exit code (core/error.h) says of which kind it was.
+// Parses and runs one command. Never throws: an error is printed to standard error with its
+// context, and the exit code (core/error.h) gives its kind.
 int RunCommandLine(int argc, const char* const* argv);
 
 }  // namespace vitruvia

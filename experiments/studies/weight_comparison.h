@@ -1,5 +1,5 @@
-// Are skinning weights the same for all people (paper A, sec. 4)? Learnt on several, compared, and
-// used for one another.
+// Tests whether skinning weights are the same for all people (paper A, sec. 4): learns them on
+// several people, compares them, and applies them to each other.
 #pragma once
 
 #include <string>

@@ -1,8 +1,9 @@
 // Segmentation of a person in a depth recording.
 //
-//   LearnRoom (room.h)      from sampled frames: background, noise, floor PiecesOf
-//   frame by frame, in any order and on any thread PeopleFollower          (following.h) frame by
-//   frame, in order ChoosePerson            selects the person after the last frame
+//   LearnRoom (room.h)            from sampled frames: background, noise, floor
+//   PiecesOf                      frame by frame, in any order and on any thread
+//   PeopleFollower (following.h)  frame by frame, in order
+//   ChoosePerson                  selects the person after the last frame
 #pragma once
 
 #include <cstdint>

@@ -2,10 +2,11 @@
 //
 // An experiment's folder:
 //   experiment.json        ExperimentRecord: title, what the paper says, which runs belong to it
-//   summary.json           ExperimentSummary: one row per run, variants compared, failed runs <run
-//   id>/record.json   RunRecord <run id>/estimate/     see estimate.h <run id>/status, log   "done
-//   KEY", or "failed KEY" and the reason; the run's messages report.html, table.csv, table.tex,
-//   table.md, figures/*.png, figures/*.svg
+//   summary.json           ExperimentSummary: one row per run, variants compared, failed runs
+//   <run id>/record.json   RunRecord
+//   <run id>/estimate/     see estimate.h
+//   <run id>/status, log   "done KEY", or "failed KEY" and the reason; the run's messages
+//   report.html, table.csv, table.tex, table.md, figures/*.png, figures/*.svg
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,5 @@
-// A scene: who moves how before which camera, and how the truth differs from the tracker's model.
+// A scene: person, motion and camera, and the differences between the true surface and the
+// tracker's model.
 #pragma once
 
 #include <array>
