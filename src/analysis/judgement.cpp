@@ -184,30 +184,31 @@ std::string WhySpeedIsNotJudged(const MeasuredRuns& measured, const SpeedReferen
 
 void GateTolerances::Describe(Fields& f) {
   f.Number("accuracy", accuracy,
-           {.meaning = "by how much of itself an error may grow, or a share of joints found fall: "
-                       "runs are deterministic, so this allows for other orders of summation only",
+           {.meaning =
+                "relative tolerance by which an error may grow, or a share of found joints fall; "
+                "runs are deterministic, so it only has to allow for different orders of summation",
             .min = 0.0,
             .max = 1.0,
             .origin = Origin::kGuessed});
   f.Number("frame_time", frame_time,
-           {.meaning = "by how much of itself the time of a frame may grow",
+           {.meaning = "relative tolerance by which the time of a frame may grow",
             .min = 0.0,
             .max = 10.0,
             .origin = Origin::kGuessed});
   f.Number("step_time", step_time,
-           {.meaning = "by how much of itself the time of a step may grow",
+           {.meaning = "relative tolerance by which the time of a step may grow",
             .min = 0.0,
             .max = 10.0,
             .origin = Origin::kGuessed});
   f.Number("gated_step_share", gated_step_share,
-           {.meaning = "the share of a frame's time from which a step is gated on its own: shorter "
-                       "ones are mostly the clock's noise",
+           {.meaning = "least share of a frame's time for a step to be gated separately; times of "
+                       "shorter steps are mostly noise",
             .min = 0.0,
             .max = 1.0,
             .origin = Origin::kGuessed});
   f.Number("confidence", confidence,
-           {.meaning = "confidence of the interval of a time's ratio, which must lie outside the "
-                       "tolerance for a change to be called",
+           {.meaning = "confidence level of the interval of a time's ratio; a change is "
+                       "significant if the interval lies outside the tolerance",
             .min = 0.5,
             .max = 0.999,
             .origin = Origin::kGuessed});

@@ -61,19 +61,18 @@ void DepthImportSettings::Describe(Fields& f) {
             .min = 1e-7,
             .max = 1e3});
   f.NumberList("invalid", invalid,
-               {.meaning = "stored values that are no measurement, besides 0, negative and "
-                           "non-finite ones"});
+               {.meaning = "stored values that mean " no measurement
+                           ", besides 0, negative and non-finite ones"});
   f.Section("orientation", orientation,
-            {.meaning = "crop, mirror, turn and size of the images, in this order; the intrinsics "
-                        "follow"});
+            {.meaning = "cropping, mirroring, rotation and resizing of the images, in this order; "
+                        "the intrinsics are adapted"});
   f.Section("frames", frames, {.meaning = "the part of the recording that is used"});
-  f.Choice(
-      "missing_frames", missing_frames,
-      {{"empty", MissingFrames::kEmpty}, {"skip", MissingFrames::kSkip}},
-      {.meaning = "what stands for frames that numbers in file names or time stamps step over: "
-                  "images without measurements, or nothing"});
+  f.Choice("missing_frames", missing_frames,
+           {{"empty", MissingFrames::kEmpty}, {"skip", MissingFrames::kSkip}},
+           {.meaning = "replacement of frames that are skipped by the numbers in file names or by "
+                       "time stamps: images without measurements, or nothing"});
   f.Number("fps", fps,
-           {.meaning = "frames per second; 0: as the time stamps say, 30 where there are none",
+           {.meaning = "frames per second; 0: from the time stamps, or 30 without them",
             .unit = "1/s",
             .min = 0.0,
             .max = 1e4});

@@ -26,7 +26,7 @@ void TruthSettings::Describe(Fields& f) {
                        "dual quaternions (paper B, eqs. 3 and 4)"});
   f.Visit(refinement);
   f.Section("cloth", cloth,
-            {.meaning = "clothes and other volumes that the template does not know"});
+            {.meaning = "clothes and differences of volume that the template does not have"});
 }
 
 void ViewSettings::Describe(Fields& f) {
@@ -87,9 +87,9 @@ void SceneSettings::Describe(Fields& f) {
   f.Section("view", view, {.meaning = "the camera and where it stands"});
   f.List("views", views,
          {.meaning = "other cameras that record the same, for scores; no tracker sees them"});
-  f.Section("occluder", occluder, {.meaning = "what walks past between camera and subject"});
+  f.Section("occluder", occluder, {.meaning = "post that moves between camera and subject"});
   f.Section("carried", carried, {.meaning = "what the subject carries"});
-  f.Section("room", room, {.meaning = "what stands still round the subject"});
+  f.Section("room", room, {.meaning = "static room round the subject"});
   f.Section("sensor", sensor, {.meaning = "what the camera makes of true depth"});
   f.Integer("frames", frames, {.meaning = "length of the sequence", .min = 1, .max = 100000});
   f.Number("fps", fps,

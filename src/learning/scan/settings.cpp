@@ -168,7 +168,7 @@ void LossSettings::Describe(Fields& f) {
             .source = "well above a depth camera's noise at 2 m"});
   f.Number("max_condition", max_condition,
            {.meaning = "the camera is lost when the condition number of the alignment's normal "
-                       "equations is larger: the view does not tell where it is",
+                       "equations is larger: the view does not determine its pose",
             .min = 1.0,
             .max = 1e12,
             .origin = Origin::kGuessed,
