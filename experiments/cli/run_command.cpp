@@ -199,7 +199,7 @@ void Run(const RunArguments& arguments) {
 
 void AddRunCommand(CLI::App& app) {
   auto a = std::make_shared<RunArguments>();
-  CLI::App* run = app.add_subcommand("run", "Carry out an experiment and write its report");
+  CLI::App* run = app.add_subcommand("run", "Run an experiment and write its report");
   run->add_option("EXPERIMENT", a->experiment, "experiment file")->required();
   run->add_option("-o,--output", a->output, "the experiment's folder; without it out/NAME");
   run->add_option("--only", a->selection.only,
@@ -207,11 +207,12 @@ void AddRunCommand(CLI::App& app) {
   run->add_option(
       "--shard", a->selection.shard,
       "i/n: only every n-th run, beginning with the i-th; the shards share one output folder");
-  run->add_option("-j,--jobs", a->jobs, "number of runs at a time; timed runs go one by one")
+  run->add_option("-j,--jobs", a->jobs,
+                  "number of concurrent runs; timed runs are executed one by one")
       ->check(CLI::Range(1, kMostJobs));
   run->add_flag("--dry-run", a->dry_run,
                 "only print the runs, the state of each, and an estimate of the time");
-  run->add_flag("--again", a->again, "carry out the chosen runs again, also those that are done");
+  run->add_flag("--again", a->again, "run the chosen runs again, including those that are done");
   run->footer(kRunFooter);
   run->callback([a] { Run(*a); });
 }

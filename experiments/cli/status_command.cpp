@@ -85,13 +85,13 @@ void AddStatusCommand(CLI::App& app) {
   auto a = std::make_shared<StatusArguments>();
   CLI::App* status = app.add_subcommand(
       "status",
-      "Say which runs of an experiment are done, failed, damaged, stale, running or missing");
+      "Print which runs of an experiment are done, failed, damaged, stale, running or missing");
   status->footer(kStatusFooter);
   status->add_option("EXPERIMENT", a->experiment, "experiment file, or an experiment's folder")
       ->required();
   status->add_option("-o,--output", a->output, "the experiment's folder; without it out/NAME");
   status->add_flag("--prune", a->prune,
-                   "remove the folders of runs of settings that the experiment no longer has");
+                   "remove the folders of runs that the experiment no longer contains");
   status->callback([a] {
     if (!fs::is_directory(a->experiment))
       return PrintStatusOfFile(a->experiment, a->output, a->prune);
