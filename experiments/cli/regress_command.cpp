@@ -84,7 +84,7 @@ std::vector<Experiment> Planned(const std::vector<GatedExperiment>& experiments,
   return planned;
 }
 
-// The people of all scenes can be made: their data are where the scenes say.
+// Checks that the bodies of all scenes can be generated, that is, that their data exist.
 void CheckBodies(const std::vector<Experiment>& experiments) {
   std::set<std::string> checked;
   for (const Experiment& experiment : experiments) {
@@ -126,7 +126,7 @@ void CheckNames(const std::vector<Experiment>& experiments, const GateBaseline& 
                           file.string(), fmt::join(missing, ", ")));
 }
 
-// What is misspelt or not there is told before hours are spent on measuring.
+// Reports misspelt names and missing files before hours of measurement.
 void CheckExperiments(const std::vector<GatedExperiment>& selected, const GateBaseline& baseline,
                       const GatePlaces& places, const RegressArguments& a) {
   const std::vector<Experiment> planned = Planned(selected, a);

@@ -78,7 +78,7 @@ void PrintRows(const fs::path& folder, const std::vector<PlannedRun>& runs) {
   }
 }
 
-// The shard that finds no run missing draws the report; the others would draw a part only.
+// The shard that finds no missing run draws the report; the others would draw only a part of it.
 void FinishExperiment(const fs::path& folder, bool is_shard) {
   const int missing = WriteSummary(folder);
   if (is_shard && missing > 0) {
@@ -107,7 +107,7 @@ void RequireSuccess(const PlannedExperiment& plan, const std::vector<PlannedRun>
                 fmt::format("too many frames failed in {} of {} runs", doubtful, runs.size()));
 }
 
-// Their status only: who reads the folder meanwhile still finds the records.
+// Removes only their status, so that readers of the folder still find the records.
 void ForgetRuns(const fs::path& folder, const std::vector<PlannedRun>& runs) {
   for (const PlannedRun& run : runs) {
     const std::optional<FileLock> claim = ClaimRun(folder / run.run_id);
@@ -145,7 +145,7 @@ void CarryOut(const PlannedExperiment& plan, const std::vector<PlannedRun>& runs
   RequireSuccess(plan, runs, outcome);
 }
 
-// What is left to do, and how long that takes as far as stored runs tell.
+// The remaining runs, and an estimate of their time from stored runs.
 class Workload {
  public:
   void Add(RunState state, std::optional<double> seconds) {

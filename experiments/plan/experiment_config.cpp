@@ -83,8 +83,8 @@ Expectation ExpectationSettings::AsRecorded() const {
 
 namespace {
 
-// A variant that is about none of the methods, or a method that no variant is about: nothing would
-// be run of it, and nobody told.
+// A variant that applies to none of the methods, or a method without a variant: it would silently
+// not be run.
 std::string UnusedVariantOrMethod(const ExperimentSettings& settings) {
   for (const VariantSettings& variant : settings.variants) {
     if (std::ranges::none_of(settings.methods,

@@ -40,7 +40,7 @@ std::string NameOfValue(const Json& value) {
   return name;
 }
 
-// Settings of the method are what sweeps are about: their prefix goes without saying.
+// Most sweeps are over settings of the method, so their prefix is left out.
 std::string NameOfSetting(const std::string& setting) {
   const std::string prefix = kMethodSettings;
   return setting.starts_with(prefix) ? setting.substr(prefix.size()) : setting;

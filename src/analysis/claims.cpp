@@ -30,8 +30,8 @@ bool AreOfOneSequence(const RunRecord& a, const RunRecord& b) {
   return a.scene == b.scene && a.seed == b.seed && RepeatOf(a) == RepeatOf(b);
 }
 
-// Of several partners the one of the same method, or else of the same variant; null if there is
-// none or if it is not clear which.
+// The partner of a run; of several candidates, the one with the same method, or else the same
+// variant. Null if there is none or if the choice is ambiguous.
 const RunRecord* PartnerOf(const RunRecord& run, const RunList& candidates) {
   RunList partners;
   for (const RunRecord* candidate : candidates) {

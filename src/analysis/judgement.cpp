@@ -9,10 +9,10 @@
 namespace vitruvia {
 namespace {
 
-// Of numbers that are 0 but for their rounding.
+// Lower bound of accuracy values, for numbers that are 0 up to rounding.
 constexpr double kSmallestAccuracy = 1e-12;
 
-// Two values on one scale: what is too high to pass, or too low.
+// Bounds of a number that passes without improvement.
 struct Limits {
   double worst = 0.0;  // that passes
   double best = 0.0;   // that is no improvement yet
@@ -35,8 +35,8 @@ Change ChangeOf(double is, const Limits& limits) {
   return Change::kWithin;
 }
 
-// The value of a metric of the run on an earlier occasion; NaN if it was not measured then, or with
-// other settings.
+// The value of the run's metric in a history entry; NaN if it was not measured, or with different
+// settings.
 double ValueThen(const HistoryEntry& entry, const GatedRun& is, const std::string& metric) {
   const GatedRun* run = FindRun(entry.runs, is.name());
   if (run == nullptr || run->config_hash != is.config_hash) return NAN;
@@ -44,7 +44,7 @@ double ValueThen(const HistoryEntry& entry, const GatedRun& is, const std::strin
   return found == run->accuracy.end() ? NAN : found->second;
 }
 
-// Back from the newest entry as long as the number was bad there too.
+// Goes back from the newest entry as long as the number was bad there too.
 Blame BlameFor(const GatedRun& is, const std::string& metric, const Limits& limits,
                const std::vector<HistoryEntry>& history, const std::string& commit,
                const std::string& baseline_commit) {
@@ -70,15 +70,14 @@ Interval RatioInterval(const std::vector<double>& was_ms, const std::vector<doub
   return MedianInterval(ratios, confidence);
 }
 
-// A ratio may be as much above one as the tolerance says, and the same the other way is an
-// improvement.
+// A ratio up to 1 + tolerance passes; its inverse is the limit of an improvement.
 Change ChangeOf(const Interval& ratio, double tolerance) {
   if (ratio.low > 1.0 + tolerance) return Change::kRegressed;
   if (ratio.high < 1.0 / (1.0 + tolerance)) return Change::kImproved;
   return Change::kWithin;
 }
 
-// Steps that take little of a frame are mostly the clock's noise.
+// Times of steps that are a small share of a frame are mostly noise.
 bool IsGated(const std::string& name, const GatedRun& was, const GateTolerances& tolerances) {
   const auto frame = was.times_ms.find(kWholeFrame);
   if (frame == was.times_ms.end() || name == kWholeFrame) return true;

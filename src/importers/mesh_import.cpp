@@ -26,10 +26,9 @@ namespace {
 
 constexpr float kNearestToCamera_m = 0.1f;
 
-// Where the subject's joints are, given the true surface in some pose: the affine motions A_b of
-// the bones that come nearest to Σ_b w_vb A_b x_v = y_v over all vertices v of the template (x_v at
-// rest, y_v now, w_vb its skinning weights), by linear least squares. Exact for a linearly skinned
-// truth.
+// Finds the subject's joints from the true surface in a pose: the affine motions A_b of the bones
+// that come nearest to Σ_b w_vb A_b x_v = y_v over all vertices v of the template (x_v at rest, y_v
+// now, w_vb its skinning weights), by linear least squares. Exact for a linearly skinned truth.
 class JointFinder {
  public:
   JointFinder(const BodyModel& subject, const TriangleMesh& true_rest)
@@ -176,7 +175,7 @@ void RequireOutwards(const TriangleMesh& mesh, const fs::path& file) {
                     file.string(), volume_m3));
 }
 
-// Meshes that correspond to nothing, each of its own triangles.
+// Imports meshes without correspondence to a template, each with its own triangles.
 void ImportOwnSurfaces(const MeshSequenceSettings& settings, const FrameFiles& files,
                        const fs::path& folder) {
   std::optional<BodyModel> subject;

@@ -73,8 +73,8 @@ std::vector<RunRecord::Step> StepTimes(const EstimateReader& estimate) {
   return steps;
 }
 
-// What could not be measured for want of truth, for people; "" if all was. A number that is absent
-// must not be taken for a zero.
+// Text that names what could not be measured without truth; "" if everything was. It prevents an
+// absent number from being taken for zero.
 std::string NotScored(const SequenceInfo& info) {
   const UnmatchedJoints unmatched = FindUnmatchedJoints(info.joints);
   std::vector<std::string> parts;

@@ -177,7 +177,8 @@ RigCost CostOf(const TriangleMesh& mesh, const BodyModel& subject,
   return cost;
 }
 
-// Each joint where the motions of its two bones agree best over all frames, held near the model's.
+// Places each joint where the motions of its two bones agree best over all frames, with a prior on
+// the model's position.
 void MoveJoints(const std::vector<BoneTransforms>& frame_from_rest, double slack_m,
                 Skeleton& skeleton) {
   constexpr double kDisagreement_m = 0.01;  // of two bones' motions at their joint
@@ -238,7 +239,8 @@ BodyModel Subject(const TriangleMesh& rest, SkinWeights weights, const BodyModel
   return subject;
 }
 
-// The body on every frame, the first one found anywhere, the others from the one before.
+// Registers the body in every frame: the first frame by a search, the others starting from the
+// frame before.
 Rig Registered(const std::vector<TriangleMesh>& frames, Registrar& registrar,
                RegistrationLog& log) {
   Rig rig;

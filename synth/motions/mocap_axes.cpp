@@ -58,7 +58,7 @@ std::string Text(const Vector3d& direction) {
   return fmt::format("({:.2f}, {:.2f}, {:.2f})", direction.x(), direction.y(), direction.z());
 }
 
-// What the frames say of the world.
+// Evidence of the frames about the world's axes.
 struct FrameEvidence {
   std::vector<std::vector<Vector3d>> positions;  // of all joints in every frame
   std::array<double, 6> shares{};            // of frames with the head above the feet along an axis
@@ -185,9 +185,9 @@ class AxesFinder {
     std::string warning;
   };
 
-  // Up in the world, given what is up in the rest pose. Where the two differ, somebody lies or
-  // stands on the hands, or the rest pose is in other axes than the world's: the floor, which most
-  // files have at 0, tells which.
+  // Up in the world, given what is up in the rest pose. If the two differ, the person lies or
+  // stands on the hands, or the rest pose is in different axes from the world; the floor, which is
+  // at 0 in most files, decides between these cases.
   Up WorldUp(const Vector3d& rest_up, const std::string& evidence) const {
     if (stated_up_) return {*stated_up_, ""};
     const std::size_t best = seen_.BestAxis();

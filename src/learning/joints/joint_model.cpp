@@ -14,7 +14,7 @@ using Votes = std::array<std::vector<WeightedPlace>, kBodyPointCount>;
 
 constexpr std::size_t kStarts = 8;  // votes from which the densest place is looked for
 
-// A Gaussian kernel of the given bandwidth, summed over votes; `shifted` is where it leads.
+// Density of votes with a Gaussian kernel; `shifted` is the mean-shift update of the position.
 float Density(const std::vector<WeightedPlace>& votes, const Vector3f& place, float bandwidth_m,
               Vector3f& shifted) {
   const float scale = -0.5f / (bandwidth_m * bandwidth_m);

@@ -104,8 +104,8 @@ Eigen::VectorXd Registrar::ScaledShape(double scale) const {
   return theta;
 }
 
-// What is expected of the person; if the height is not known, scaled so that the posed body is as
-// high as what is seen.
+// The expected shape; if the height is not known, it is scaled so that the posed body has the
+// height of the measurements.
 Eigen::VectorXd Registrar::StartShape(const PoseHypothesis& hypothesis, double height_m) const {
   if (known_.height_m) return ScaledShape(expected_.scale);
   BodyState state = hypothesis.state;
