@@ -135,7 +135,7 @@ ExperimentOutcome CarryOutOrSayHowFar(const PlannedExperiment& plan,
 
 void CarryOut(const PlannedExperiment& plan, const std::vector<PlannedRun>& runs,
               const RunArguments& arguments) {
-  MachineLockFile();  // what is wrong with it is told before anything is written
+  MachineLockFile();  // reports its errors before anything is written
   WritePlan(plan.experiment, plan.file, plan.folder);
   if (arguments.again) ForgetRuns(plan.folder, runs);
   const ExperimentOutcome outcome = CarryOutOrSayHowFar(plan, runs, arguments.jobs);

@@ -60,9 +60,10 @@ void DepthImportSettings::Describe(Fields& f) {
             .unit = "m",
             .min = 1e-7,
             .max = 1e3});
-  f.NumberList("invalid", invalid,
-               {.meaning = "stored values that mean " no measurement
-                           ", besides 0, negative and non-finite ones"});
+  f.NumberList(
+      "invalid", invalid,
+      {.meaning =
+           "stored values that are not measurements, besides 0, negative and non-finite ones"});
   f.Section("orientation", orientation,
             {.meaning = "cropping, mirroring, rotation and resizing of the images, in this order; "
                         "the intrinsics are adapted"});

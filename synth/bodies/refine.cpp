@@ -82,8 +82,8 @@ void DecimateBody(const std::vector<Vector3f>& reference, int target_vertices, B
   model.rest.triangles = std::move(decimation.triangles);
 }
 
-// Where the fourth and fifth largest weights tie, as those of left and right on the midline do,
-// both go: rounding must not choose a side.
+// If the fourth and fifth largest weights tie, as those of left and right on the midline do, both
+// are removed, so that rounding does not choose a side.
 void DropTiesForLastPlace(Eigen::MatrixXf& weights) {
   constexpr float kTie = 1e-6f;  // a few roundings of weights up to 1
   for (Eigen::Index v = 0; v < weights.rows(); ++v) {

@@ -14,9 +14,9 @@
 namespace vitruvia {
 namespace {
 
-// The subject stands in the rest pose, goes over into the motion's pose at start_s, and from there
-// on does the motion. The motion is shifted and turned on the floor so that at its start the pelvis
-// stands where it stood at rest; the rest pose itself always faces the front.
+// The subject stands in the rest pose, blends into the motion's pose at start_s, and then follows
+// the motion. The motion is shifted and rotated on the floor so that the pelvis starts where it was
+// in the rest pose; the rest pose itself always faces the front.
 class MotionAfterRest final : public Motion {
  public:
   MotionAfterRest(std::unique_ptr<Motion> motion, const MotionSettings& settings,

@@ -33,8 +33,8 @@ class ScanRecorder {
   // Its surface in the first frame, which a scan should reconstruct. Subject frame.
   const TriangleMesh& surface() const { return surface_; }
 
-  // Frames 0 … settings.frames − 1, in any order. ConfigError if the body comes too near to the
-  // camera or too far from it to be rendered.
+  // Frames 0 … settings.frames − 1, in any order. ConfigError if the body leaves the renderer's
+  // depth range.
   ScanFrame Render(int frame);
 
  private:

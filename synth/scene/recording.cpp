@@ -120,7 +120,7 @@ SequenceInfo Info(const SceneSettings& settings, const BodyModel& truth, const B
   return info;
 }
 
-// The depth range is the renderer's: beyond it the surface would be cut open without a word.
+// Checks the renderer's depth range, beyond which the surface would be clipped silently.
 void RequireInRange(const std::vector<Vector3f>& vertices_in_camera, int frame) {
   for (const Vector3f& p : vertices_in_camera) {
     if (p.z() >= kNearest_m && p.z() <= kFarthest_m) continue;
