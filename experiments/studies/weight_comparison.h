@@ -15,7 +15,7 @@ struct WeightComparison {
   std::vector<int> alternations;   // per subject
   // Of the subject's own weights with their transforms, RMSE of a vertex.
   std::vector<double> own_rmse_m;
-  // [whose weights][on whom]: RMSE with the transforms fitted anew. N + 1 rows, N columns.
+  // [weights of][applied to]: RMSE with the transforms fitted again. N + 1 rows, N columns.
   std::vector<std::vector<double>> swapped_rmse_m;
   // [one][other]: half the sum of absolute differences of a vertex's weights, 0 … 1: the share of
   // it that follows other bones. N + 1 rows, N columns.

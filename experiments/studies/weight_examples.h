@@ -18,7 +18,7 @@ struct WeightExampleFiles {
   std::filesystem::path rest;    // mesh; the rig's own if empty
   std::filesystem::path rig;     // body folder: its weights say where bones begin; or empty
   std::filesystem::path labels;  // text: one bone per vertex; or empty
-  int bones = 0;                 // without rig and labels: so many rigid pieces are looked for
+  int bones = 0;                 // without rig and labels: number of rigid pieces to find
 };
 
 struct WeightExamples {

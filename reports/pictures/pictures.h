@@ -49,9 +49,9 @@ using PictureUse = std::function<void(RunPictures&)>;
 
 // One entry per finished run: at the experiment's picture frames that the run has, or, of a run
 // that left surfaces instead of frames (records/surface_strips.h), those. The error of a vertex is
-// its distance to the true point that it stands for, which is the closest one in the rest pose that
-// both surfaces share. All runs share one error scale, so that their colours are comparable. Runs
-// are drawn on all cores.
+// its distance to the corresponding true point, which is the closest one in the common rest pose.
+// All runs share one error scale, so that their colours are comparable. Runs are drawn on all
+// cores.
 std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment,
                                       const PictureUse& use = {});
 

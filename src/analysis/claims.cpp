@@ -194,7 +194,7 @@ void ClaimTest::Describe(Fields& f) {
                        "pairs of runs, one contender is better than the other; or the two differ "
                        "by no more than a margin"});
   f.Text("of", of,
-         {.meaning = "whose runs are tested: pattern (* ? [abc]) of \"method/variant\"",
+         {.meaning = "contender whose runs are tested: pattern (* ? [abc]) of \"method/variant\"",
           .required = true});
   f.Text("against", against,
          {.meaning = "the contender that pairs are made with: pattern of \"method/variant\""});
@@ -206,8 +206,8 @@ void ClaimTest::Describe(Fields& f) {
            {.meaning = "largest difference at which two contenders count as equal", .min = 0.0});
   f.Number("paper", paper, {.meaning = "value of the metric that the paper prints"});
   f.Text("remark", remark,
-         {.meaning = "where a bound or margin that the paper does not print "
-                     "comes from, and how the test differs from the paper's"});
+         {.meaning = "origin of a bound or margin that the paper does not print, and differences "
+                     "from the paper's test"});
 }
 
 std::string ClaimTest::Problem() const {

@@ -104,7 +104,7 @@ void GatedRun::Describe(Fields& f) {
   f.Text("scene", scene, {.meaning = "name of the scene"});
   f.Text("method", method, {.meaning = "name of the method"});
   f.Integer("seed", seed, {.meaning = "seed of all random streams of the run"});
-  f.Integer("repeats", repeats, {.meaning = "how often the run was repeated"});
+  f.Integer("repeats", repeats, {.meaning = "number of repeats of the run"});
   f.Map("accuracy", accuracy, {.meaning = "metric → its value in the first repeat"});
   f.Texts("unsteady", unsteady, {.meaning = "metrics that differ between the repeats"});
   f.Map("times_ms", times_ms,

@@ -13,7 +13,8 @@ void BackgroundSettings::Describe(Fields& f) {
                        "free of the person for some time), or frames without a person",
             .origin = Origin::kInput});
   f.Number("far_share", far_share,
-           {.meaning = "quantile of a pixel's depths over the recording that is taken for the room",
+           {.meaning =
+                "quantile of a pixel's depths over the recording that is used as the room's depth",
             .min = 0.5,
             .max = 1.0,
             .origin = Origin::kGuessed,
@@ -41,7 +42,7 @@ void BackgroundSettings::Describe(Fields& f) {
 }
 
 void FloorSettings::Describe(Fields& f) {
-  f.Flag("remove", remove, {.meaning = "whether a floor is looked for and removed"});
+  f.Flag("remove", remove, {.meaning = "whether a floor is detected and removed"});
   f.Number("tilt_deg", tilt_deg,
            {.meaning = "largest angle between the floor's normal and the image's upright",
             .unit = "deg",
@@ -201,8 +202,8 @@ void FollowingSettings::Describe(Fields& f) {
             .max = 1.0,
             .origin = Origin::kGuessed});
   f.Number("attach_m", attach_m,
-           {.meaning = "distance from a person's box up to which a piece too small for a person is "
-                       "taken for a part of that person",
+           {.meaning = "distance from a person's bounding box up to which a piece too small for a "
+                       "person is assigned to that person",
             .unit = "m",
             .min = 0.0,
             .max = 1.0,
@@ -242,8 +243,8 @@ void PersonSettings::Describe(Fields& f) {
       {{"largest", PersonChoice::kLargest},
        {"nearest", PersonChoice::kNearest},
        {"pixel", PersonChoice::kPixel}},
-      {.meaning = "which of several people is kept: the one of the largest area, summed over "
-                  "the frames; the one nearest to the camera on average; or the one at a pixel"});
+      {.meaning = "selection among several people: the one with the largest area, summed over the "
+                  "frames; the one nearest to the camera on average; or the one at a pixel"});
   f.Integer("frame", frame, {.meaning = "frame of the chosen pixel", .min = 0, .max = 1e6});
   f.Integer("u", u,
             {.meaning = "column of the chosen pixel in the sequence's images",
@@ -256,7 +257,7 @@ void PersonSettings::Describe(Fields& f) {
              .min = 0,
              .max = 1e5});
   f.Section("size", size, {.meaning = "sizes that a piece must have to be a person"});
-  f.Section("touching", touching, {.meaning = "how people who touch are told apart"});
+  f.Section("touching", touching, {.meaning = "separation of people who touch"});
 }
 
 void CutoutSettings::Describe(Fields& f) {

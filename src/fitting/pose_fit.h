@@ -28,7 +28,7 @@ struct FitPriors {
   double angle_deviation_deg = 40.0;
   Eigen::VectorXd theta;            // mean of the prior on the shape
   double point_deviation_m = 0.02;  // of a pair's residual
-  double point_count = 300.0;       // independent points that all pairs together stand for
+  double point_count = 300.0;       // effective number of independent points of all pairs
 };
 
 // Normal equations of the shape at a state, with pose and position eliminated (Schur complement),

@@ -55,8 +55,8 @@ void DepthImportSettings::Describe(Fields& f) {
       "camera", camera,
       {.meaning = "intrinsics of the stored images, before they are oriented", .required = true});
   f.Number("unit_m", unit_m,
-           {.meaning = "metres that a stored value of 1 stands for: 0.001 for millimetres, 1 for "
-                       "metres and point clouds, 0.0002 for the TUM RGB-D benchmark",
+           {.meaning = "unit of the stored values, in metres: 0.001 for millimetres, 1 for metres "
+                       "and point clouds, 0.0002 for the TUM RGB-D benchmark",
             .unit = "m",
             .min = 1e-7,
             .max = 1e3});

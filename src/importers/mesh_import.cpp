@@ -216,12 +216,14 @@ void MeshSequenceSettings::Describe(Fields& f) {
            {.meaning = "frame of reference of the frames' meshes: subject (y up, front to +z) or "
                        "camera (y down, z away)"});
   f.Number("unit_m", unit_m,
-           {.meaning = "length that 1 stands for in frames and rest mesh",
+           {.meaning = "unit of length of the frames and the rest mesh",
             .unit = "m",
             .min = 1e-6,
             .max = 1e3});
-  f.Section("view", view, {.meaning = "the camera; its place counts only for the subject frame"});
-  f.Section("sensor", sensor, {.meaning = "what the camera makes of true depth"});
+  f.Section(
+      "view", view,
+      {.meaning = "the camera; its position is used only if the meshes are in the subject frame"});
+  f.Section("sensor", sensor, {.meaning = "sensor model of the camera"});
   f.Number("fps", fps, {.meaning = "frames per second", .unit = "1/s", .min = 1e-3, .max = 1e4});
   f.Integer("seed", seed, {.meaning = "seed of the sensor's noise", .min = 0, .max = 1e9});
 }

@@ -315,10 +315,9 @@ void LearnFromFrames(const std::vector<Vertices>& frames, const std::vector<Tria
 }  // namespace
 
 void RigSettings::Describe(Fields& f) {
-  f.Choice(
-      "surface", surface, {{"mesh", RigSurface::kMesh}, {"model", RigSurface::kModel}},
-      {.meaning = "whose surface becomes the subject's: mesh: the meshes' own, closed and of the "
-                  "same triangles; model: the registered body's"});
+  f.Choice("surface", surface, {{"mesh", RigSurface::kMesh}, {"model", RigSurface::kModel}},
+           {.meaning = "source of the subject's surface: mesh: the input meshes, which are closed "
+                       "and have the same triangles; model: the registered body"});
   f.Section("registration", registration, {.meaning = "how a body is put onto the meshes"});
   f.Section("weights", weights, {.meaning = "how skinning weights are learnt from a sequence"});
   f.Integer("smoothing_steps", smoothing_steps,

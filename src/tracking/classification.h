@@ -11,8 +11,8 @@ namespace vitruvia {
 
 // Class of a vertex that lies behind the captured surface.
 enum class BehindSurface {
-  kElsewhere,  // paper: it is V2 and looks for a point
-  kHidden,     // another part of the body may hide it: it is neither V1 nor V2
+  kElsewhere,  // paper: it is V2 and is paired with a point
+  kHidden,     // another part of the body may hide it, so it is neither V1 nor V2
 };
 
 // Thresholds of nearness.

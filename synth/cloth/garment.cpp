@@ -69,7 +69,7 @@ void ClothSettings::Describe(Fields& f) {
             .min = 0,
             .max = 0.03});
   f.Number("drape_m", drape_m,
-           {.meaning = "how far sleeves and trouser legs hang below a level limb",
+           {.meaning = "distance by which sleeves and trouser legs hang below a horizontal limb",
             .unit = "m",
             .min = 0,
             .max = 0.08});

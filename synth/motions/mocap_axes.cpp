@@ -276,9 +276,9 @@ void DescribeUpAxis(Fields& f, UpAxis& up_axis) {
             {"-y", UpAxis::kMinusY},
             {"+z", UpAxis::kPlusZ},
             {"-z", UpAxis::kMinusZ}},
-           {.meaning = "which axis of the motion capture file's world points up; from_file: the "
-                       "axis along which the rest pose stands upright, or, where it does not, "
-                       "along which the head is above the feet in most frames"});
+           {.meaning = "up axis of the motion capture file's world; from_file: the axis along "
+                       "which the rest pose stands upright or, if it does not, along which the "
+                       "head is above the feet in most frames"});
 }
 
 void TakeAsRestPose(MocapClip& clip, std::size_t frame) {

@@ -107,14 +107,16 @@ void MotionSettings::Describe(Fields& f) {
            {.meaning = "time in the motion at which the sequence begins", .unit = "s", .min = 0.0});
   f.Number("speed", speed, {.meaning = "playback rate", .min = 0.01, .max = 100.0});
   f.Number("rest_s", rest_s,
-           {.meaning = "how long the subject stands in the T-pose first", .unit = "s", .min = 0.0});
+           {.meaning = "time for which the subject first stands in the T-pose",
+            .unit = "s",
+            .min = 0.0});
   f.Number("blend_s", blend_s,
-           {.meaning = "how long it takes from the T-pose to the motion's first pose",
+           {.meaning = "duration of the transition from the T-pose to the motion's first pose",
             .unit = "s",
             .min = 0.0});
   f.Number("heading_deg", heading_deg,
-           {.meaning = "turns the motion about the vertical through its start, to the subject's "
-                       "left; the T-pose before it faces the front all the same",
+           {.meaning = "rotation of the motion about the vertical axis through its start, to the "
+                       "subject's left; the T-pose before it still faces the front",
             .unit = "deg",
             .min = -360.0,
             .max = 360.0});

@@ -32,8 +32,8 @@ void TruthSettings::Describe(Fields& f) {
 void ViewSettings::Describe(Fields& f) {
   f.Section("camera", camera, {.meaning = "intrinsics"});
   f.Numbers("position_m", position_m,
-            {.meaning = "where the camera is: x to the subject's left, y up, z to the front, from "
-                        "the floor under the subject's start",
+            {.meaning = "position of the camera: x to the subject's left, y up, z to the front, "
+                        "from the floor under the subject's start",
              .unit = "m",
              .min = -20.0,
              .max = 20.0});
@@ -42,12 +42,12 @@ void ViewSettings::Describe(Fields& f) {
              .unit = "m",
              .min = -20.0,
              .max = 20.0});
-  f.Number("roll_deg", roll_deg,
-           {.meaning = "how far the camera is turned about its line of sight, clockwise as it sees "
-                       "the scene",
-            .unit = "deg",
-            .min = -360.0,
-            .max = 360.0});
+  f.Number(
+      "roll_deg", roll_deg,
+      {.meaning = "rotation of the camera about its line of sight, clockwise as seen by the camera",
+       .unit = "deg",
+       .min = -360.0,
+       .max = 360.0});
 }
 
 std::string ViewSettings::Problem() const {
@@ -90,7 +90,7 @@ void SceneSettings::Describe(Fields& f) {
   f.Section("occluder", occluder, {.meaning = "post that moves between camera and subject"});
   f.Section("carried", carried, {.meaning = "what the subject carries"});
   f.Section("room", room, {.meaning = "static room round the subject"});
-  f.Section("sensor", sensor, {.meaning = "what the camera makes of true depth"});
+  f.Section("sensor", sensor, {.meaning = "sensor model of the camera"});
   f.Integer("frames", frames, {.meaning = "length of the sequence", .min = 1, .max = 100000});
   f.Number("fps", fps,
            {.meaning = "frames per second",

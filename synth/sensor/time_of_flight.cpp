@@ -102,8 +102,8 @@ void TimeOfFlightSettings::Describe(Fields& f) {
             .origin = Origin::kGuessed,
             .source = "a pixel wide seam, in part removed by drivers"});
   f.Number("flying_reach_m", flying_reach_m,
-           {.meaning = "flying pixels farther behind the nearer surface are taken for background "
-                       "and removed with it",
+           {.meaning = "flying pixels farther than this behind the nearer surface count as "
+                       "background and are removed",
             .unit = "m",
             .min = 0,
             .max = 10,

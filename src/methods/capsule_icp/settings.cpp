@@ -81,8 +81,8 @@ void FreeSpaceSettings::Describe(Fields& f) {
        .origin = Origin::kGuessed,
        .source = "δ = 3 σ"});
   f.Number("reach_m", reach_m,
-           {.meaning = "depth beyond which a sample in front of the observed surface is taken for "
-                       "another part of the body, and is not pushed back",
+           {.meaning = "depth beyond which a sample in front of the observed surface is assumed to "
+                       "be another part of the body and gets no row",
             .unit = "m",
             .min = 0.001,
             .max = 10,

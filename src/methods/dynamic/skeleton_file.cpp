@@ -120,7 +120,7 @@ void JointSettings::Describe(Fields& f) {
 
 void SkeletonFile::Describe(Fields& f) {
   f.Text("name", name, {.meaning = "name of the skeleton", .required = true});
-  f.Text("description", description, {.meaning = "what it is for"});
+  f.Text("description", description, {.meaning = "purpose of the skeleton"});
   f.List("joints", joints, {.meaning = "hinges and prismatic joints", .required = true});
 }
 

@@ -185,13 +185,15 @@ void FreeSpaceSettings::Describe(Fields& f) {
              .max = 64,
              .origin = Origin::kGuessed,
              .source = "edges lose their measurements"});
-  f.Number("reach_m", reach_m,
-           {.meaning = "how far across the line of sight the edge of free space is sought",
-            .unit = "m",
-            .min = 0.01,
-            .max = 2,
-            .origin = Origin::kGuessed,
-            .source = "a limb that is farther off is not where it is sought"});
+  f.Number(
+      "reach_m", reach_m,
+      {.meaning =
+           "maximum distance across the line of sight at which the edge of free space is searched",
+       .unit = "m",
+       .min = 0.01,
+       .max = 2,
+       .origin = Origin::kGuessed,
+       .source = "a limb that is farther off is not where it is sought"});
 }
 
 void SearchSettings::Describe(Fields& f) {

@@ -3,13 +3,14 @@
 namespace vitruvia::realtime_scape {
 
 void CloudSettings::Describe(Fields& f) {
-  f.Integer("stride", stride,
-            {.meaning = "every how many columns and rows a pixel becomes a point of the cloud P",
-             .unit = "px",
-             .min = 1,
-             .max = 16,
-             .origin = Origin::kPaper,
-             .source = "paper A, sec. 6.2: half resolution"});
+  f.Integer(
+      "stride", stride,
+      {.meaning = "stride in columns and rows of the pixels that become points of the cloud P",
+       .unit = "px",
+       .min = 1,
+       .max = 16,
+       .origin = Origin::kPaper,
+       .source = "paper A, sec. 6.2: half resolution"});
   f.Number("max_depth_m", max_depth_m,
            {.meaning = "pixels with a larger depth are not measurements of the subject",
             .unit = "m",
