@@ -1,4 +1,4 @@
-// The command line: `vitruvia list | synth | track | run | report | explain`.
+// The command line of `vitruvia`: all commands of this folder.
 #pragma once
 
 namespace vitruvia {

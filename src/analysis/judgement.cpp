@@ -15,7 +15,7 @@ constexpr double kSmallestAccuracy = 1e-12;
 // Bounds of a number that passes without improvement.
 struct Limits {
   double worst = 0.0;  // that passes
-  double best = 0.0;   // that is no improvement yet
+  double best = 0.0;   // the best value that is not yet an improvement
 };
 
 Limits AccuracyLimits(const std::string& metric, double was, double tolerance) {

@@ -17,7 +17,7 @@ class MixtureTerm final : public articulated::DataTerm {
 
   void Observe(const articulated::Observation& observation) override;
   // Finds the visible vertices, which are the mixture's centres until the next call, and resets σ
-  // to its initial width.
+  // to first_sigma_m.
   void Begin(const articulated::MovingBones& bones) override;
   void AddRows(const articulated::MovingBones& bones, double progress, WorkerTeam& team,
                articulated::Clock& clock, articulated::PoseSystem& system) override;
