@@ -14,7 +14,7 @@ constexpr double kSmallestAccuracy = 1e-12;
 
 // Bounds of a number that passes without improvement.
 struct Limits {
-  double worst = 0.0;  // that passes
+  double worst = 0.0;  // that still passes
   double best = 0.0;   // the best value that is not yet an improvement
 };
 
