@@ -185,8 +185,8 @@ void Settings::Describe(Fields& f) {
             {"shape_match", Mode::kShapeMatch},
             {"smooth_bind", Mode::kSmoothBind},
             {"rigid", Mode::kRigid}},
-           {.meaning = "warps of the surface: in every frame, in the first frames only, none, or "
-                       "none with rigid parts",
+           {.meaning = "warps of the surface: estimated in every frame, in the first frame only, "
+                       "none, or none with rigid parts",
             .origin = Origin::kPaper,
             .source = "paper B, sec. 5.1"});
   f.Section("association", association, {.meaning = "association of points with vertices"});

@@ -14,7 +14,7 @@ namespace vitruvia::dynamic {
 // Deformation of the surface by warps (paper B, sec. 5.1).
 enum class Mode {
   kFull,        // warps are estimated in every frame
-  kShapeMatch,  // warps are estimated in the first frames only, then frozen
+  kShapeMatch,  // warps are estimated in the first frame only, then frozen
   kSmoothBind,  // not at all
   kRigid,       // no warps, and the mesh is cut into one rigid part for each bone
 };
