@@ -137,7 +137,8 @@ int RunCommandLine(int argc, const char* const* argv) {
     return static_cast<int>(ExitCode::kSuccess);
   } catch (const CLI::Success& success) {  // --help, --version
     return app.exit(success);
-  } catch (const CLI::RuntimeError& error) {  // a run's own process has said all in its folder
+  } catch (const CLI::RuntimeError& error) {  // the run's own process has written the details to
+                                              // its folder
     return error.get_exit_code();
   } catch (const CLI::ParseError& error) {
     app.exit(error);

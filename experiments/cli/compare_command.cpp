@@ -134,18 +134,16 @@ void AddCompareCommand(CLI::App& app) {
       ->required();
   compare->add_option(
       "OTHER", a->second,
-      "another experiment of the same runs; without it the variants of EXPERIMENT are compared");
-  compare->add_option(
-      "--reference", a->reference,
-      "the variant that the others are compared with; without it the one that has all "
-      "swept settings at their defaults, or the first");
+      "another experiment with the same runs; without it, the variants of EXPERIMENT are compared");
+  compare->add_option("--reference", a->reference,
+                      "the variant with which the others are compared; default: the one with all "
+                      "swept settings at their defaults, or the first");
   compare->add_option("--metric", a->metrics,
                       "key of a metric (vitruvia explain); can be repeated");
   compare
-      ->add_option(
-          "--detect", a->detect,
-          "say how many scenes it takes to show a difference of this size, in the metric's "
-          "printed unit")
+      ->add_option("--detect", a->detect,
+                   "print how many scenes are needed to detect a difference of this size, in the "
+                   "metric's printed unit")
       ->check(CLI::PositiveNumber);
   compare->add_option("-o,--output", a->output,
                       "also write the table to this .tex, .csv, .md or .json file");

@@ -1,5 +1,4 @@
-// All kinds of config files and of stored data: what `vitruvia explain` explains and `vitruvia
-// schema` publishes.
+// All kinds of config files and of stored data, for `vitruvia explain` and `vitruvia schema`.
 #pragma once
 
 #include <string>
@@ -10,12 +9,12 @@
 namespace vitruvia {
 
 struct ConfigKind {
-  std::string name;     // as `vitruvia schema` and the keys of `explain` say it: "scene"
+  std::string name;     // name in `vitruvia schema` and in the keys of `explain`: "scene"
   std::string meaning;  // one line
   void (*visit)(Fields&);
   Json (*schema)();  // null: that of `visit`
   FileKind file_kind = FileKind::kSettings;
-  // Where a sweep finds the settings: "scene" or "method.settings"; "" where it does not.
+  // Path of the settings in a sweep: "scene" or "method.settings"; "" if they cannot be swept.
   std::string sweep_prefix{};
 };
 const std::vector<ConfigKind>& ConfigKinds();
@@ -23,7 +22,7 @@ const std::vector<ConfigKind>& ConfigKinds();
 // ConfigError naming the nearest kind if there is none of that name.
 const ConfigKind& FindConfigKind(const std::string& name);
 
-// Of a file of that kind.
+// The schema of a file of that kind.
 Json SchemaOf(const ConfigKind& kind);
 
 }  // namespace vitruvia

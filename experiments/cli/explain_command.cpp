@@ -158,7 +158,7 @@ std::string TextFor(const ExplainArguments& a) {
 void AddExplainCommand(CLI::App& app) {
   const auto a = std::make_shared<ExplainArguments>();
   CLI::App* explain =
-      app.add_subcommand("explain", "Say what a setting or a metric means; without KEY list all");
+      app.add_subcommand("explain", "Explain a setting or a metric; without KEY list all");
   CLI::Option* key = explain->add_option(
       "KEY", a->key, "a setting's key or the beginning of one, or a metric's key");
   CLI::Option* search =

@@ -72,7 +72,7 @@ void AddExportCommand(CLI::App& app) {
       "export", "Write runs as files that other programs open: surfaces, joints");
   command->add_option("DIR", a->folder, "the experiment's folder")->required();
   command->add_option("--only", a->only, "only runs whose id matches this pattern (* ? [abc])");
-  command->add_option("--frames", a->frames, "only these frames, but for bvh; without it all");
+  command->add_option("--frames", a->frames, "only these frames (not for bvh); default: all");
   command
       ->add_option(
           "--as", a->formats,

@@ -101,7 +101,7 @@ void AddImportCommand(CLI::App& app) {
   auto a = std::make_shared<ImportArguments>();
   CLI::App* import = app.add_subcommand(
       "import",
-      "Make a sequence of recordings or meshes of other programs, or check a motion file");
+      "Convert recordings or meshes of other programs to a sequence, or check a motion file");
   import->require_subcommand(1);
   CLI::App* meshes = import->add_subcommand(
       "meshes", "Mesh files, one for each frame: rendered as a depth camera sees them");
@@ -113,7 +113,7 @@ void AddImportCommand(CLI::App& app) {
     fmt::print("{}\n", a->output.string());
   });
   CLI::App* depth = import->add_subcommand(
-      "depth", "Images of a depth camera: the person is cut out of the room");
+      "depth", "Images of a depth camera, from which the person is segmented");
   a->threads = GetMachineInfo().threads;
   depth->add_option("CONFIG", a->config, "import config file (vitruvia explain import_depth)")
       ->required();
@@ -123,7 +123,7 @@ void AddImportCommand(CLI::App& app) {
       ->capture_default_str();
   depth->callback([a] { ImportDepth(*a); });
   CLI::App* eval = import->add_subcommand(
-      "eval", "Stanford EVAL: .bin files of one recording, in their order; depth and true joints");
+      "eval", "Stanford EVAL: .bin files of one recording, in order; depth and true joints");
   eval->add_option("FILES", a->files, "seq_<human>_<n>.bin")->required();
   eval->add_option("--config", a->config, "import config file (src/importers/eval_import.h)");
   eval->add_option("-o,--output", a->output, "folder of the new sequence")->required();

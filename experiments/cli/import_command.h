@@ -1,4 +1,4 @@
-// `vitruvia import`: recordings of others made into sequences.
+// `vitruvia import`: converts recordings from other sources to sequences.
 #pragma once
 
 namespace CLI {

@@ -13,7 +13,7 @@ namespace vitruvia {
 void AddIndexCommand(CLI::App& app) {
   const auto folder = std::make_shared<std::filesystem::path>("out");
   CLI::App* index =
-      app.add_subcommand("index", "Write one page over all experiments of an output folder");
+      app.add_subcommand("index", "Write one page about all experiments of an output folder");
   index->add_option("DIR", *folder, "the folder of experiments; out without");
   index->callback([folder] { fmt::print("index: {}\n", WriteIndex(*folder).string()); });
 }

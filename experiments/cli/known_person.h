@@ -1,4 +1,4 @@
-// Options that say what is known of a person: --height, --weight, --sex.
+// Options for the known attributes of a person: --height, --weight, --sex.
 #pragma once
 
 #include <string>

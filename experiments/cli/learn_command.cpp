@@ -10,7 +10,7 @@
 namespace vitruvia {
 
 void AddLearnCommand(CLI::App& app) {
-  CLI::App* learn = app.add_subcommand("learn", "Learn from bodies what a tracker needs to know");
+  CLI::App* learn = app.add_subcommand("learn", "Learn the models that trackers need from bodies");
   learn->require_subcommand(1);
   AddLearnDatabaseCommand(*learn);
   AddLearnShapeCommand(*learn);

@@ -101,7 +101,7 @@ void AddStandInJointsCommand(CLI::App& app) {
   auto a = std::make_shared<StandInArguments>();
   CLI::App* command = app.add_subcommand(
       "stand-in-joints",
-      "Write a sequence's true joints with stated noise, as a stand-in for a joint detector");
+      "Write a sequence's true joints with given noise, as a stand-in for a joint detector");
   command->add_option("SEQUENCE", a->sequence, "folder of the sequence")->required();
   command->add_option("--settings", a->settings, "JSON file of the noise");
   command->add_option("-o,--output", a->output, "file of joint observations")->required();

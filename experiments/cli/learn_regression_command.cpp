@@ -41,7 +41,7 @@ void AddLearnRegressionCommand(CLI::App& learn) {
   auto a = std::make_shared<LearnRegressionArguments>();
   CLI::App* command = learn.add_subcommand(
       "pose-regression",
-      "Learn how triangles deform with the pose; print the errors on people held out");
+      "Learn the deformation of triangles with the pose; print the errors on held-out people");
   command->add_option("CONFIG", a->config, "file of the people and the regression")->required();
   command->add_option("-o,--output", a->output, "folder of the pose regression")->required();
   command->callback([a] { LearnRegressionFromConfig(*a); });

@@ -153,7 +153,7 @@ void AddLearnShapeCommand(CLI::App& learn) {
       "Learn the shape space and the skinning weights; print the errors of held-out subjects");
   command->add_option("CONFIG", a->config, "learning file")->required();
   command->add_option("--database", a->database,
-                      "folder of a database; without it the database is made anew");
+                      "folder of a database; without it, the database is generated");
   command->add_option("-o,--output", a->output, "folder of the shape space")->required();
   command->callback([a] { LearnShape(a->config, a->database, a->output); });
 }

@@ -73,7 +73,8 @@ void CompareOnSubjects(const ComparisonArguments& a) {
 void AddLearnComparisonCommand(CLI::App& learn) {
   auto a = std::make_shared<ComparisonArguments>();
   CLI::App* command = learn.add_subcommand(
-      "compare", "Learn skinning weights from several people, and use those of each on the others");
+      "compare",
+      "Learn skinning weights from several people and test each person's weights on the others");
   command->add_option("CONFIG", a->config, "learning file")->required();
   command->add_option("--subjects", a->subjects, "number of people, the first of the population")
       ->check(CLI::Range(2, 100))
@@ -91,8 +92,7 @@ void AddLearnWeightsCommand(CLI::App& learn) {
                    "folder of PLY, OBJ and OFF files of one topology, a pose each")
       ->required();
   command->add_option("--rest", a->files.rest, "mesh of the rest pose; without it the rig's own");
-  command->add_option("--rig", a->files.rig,
-                      "body folder whose weights give the bones to start from");
+  command->add_option("--rig", a->files.rig, "body folder whose weights give the initial bones");
   command->add_option("--labels", a->files.labels,
                       "text file with the bone of each vertex, counted from 0");
   command

@@ -184,7 +184,7 @@ void CheckMotion(const MotionCheckArguments& a) {
 void AddMotionCheckCommand(CLI::App& import) {
   auto a = std::make_shared<MotionCheckArguments>();
   CLI::App* motion = import.add_subcommand(
-      "motion", "Check a motion file: what is understood of it, and stick figures to look at");
+      "motion", "Check a motion file: print its interpretation and draw stick figures");
   motion
       ->add_option("--check", a->file,
                    "a .bvh or .amc file, a .json file of key frames, or a scene with its motion's "

@@ -1,5 +1,4 @@
-// `vitruvia import motion --check FILE`: what is understood of a motion file, in words and as a
-// picture.
+// `vitruvia import motion --check FILE`: prints and draws how a motion file is interpreted.
 #pragma once
 
 namespace CLI {

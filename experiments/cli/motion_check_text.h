@@ -1,4 +1,4 @@
-// What was understood of a motion capture file, in words.
+// Text that describes how a motion capture file is interpreted.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Runs that a command leaves out.
+// Reports the runs that a command leaves out.
 #pragma once
 
 #include "analysis/experiment_runs.h"

@@ -84,7 +84,7 @@ std::vector<Experiment> Planned(const std::vector<GatedExperiment>& experiments,
   return planned;
 }
 
-// The people of all scenes can be made: their data are where the scenes say.
+// Checks that the bodies of all scenes can be generated, that is, that their data exist.
 void CheckBodies(const std::vector<Experiment>& experiments) {
   std::set<std::string> checked;
   for (const Experiment& experiment : experiments) {
@@ -126,7 +126,7 @@ void CheckNames(const std::vector<Experiment>& experiments, const GateBaseline& 
                           file.string(), fmt::join(missing, ", ")));
 }
 
-// What is misspelt or not there is told before hours are spent on measuring.
+// Reports misspelt names and missing files before hours of measurement.
 void CheckExperiments(const std::vector<GatedExperiment>& selected, const GateBaseline& baseline,
                       const GatePlaces& places, const RegressArguments& a) {
   const std::vector<Experiment> planned = Planned(selected, a);
@@ -213,18 +213,18 @@ void Regress(const RegressArguments& a) {
 void AddRegressCommand(CLI::App& app) {
   const auto a = std::make_shared<RegressArguments>();
   CLI::App* regress =
-      app.add_subcommand("regress", "Measure again and compare accuracy and speed with a baseline");
+      app.add_subcommand("regress", "Measure accuracy and speed and compare them with a baseline");
   regress->add_option("CONFIG", a->config, "what to measure: configs/nightly.json")->required();
   regress->add_option("--baseline", a->baseline, "folder of baselines")->required();
-  regress->add_option(
-      "--baseline-program", a->baseline_program,
-      "program of the baseline's commit: it runs in turn with this one, and speed is "
-      "judged by the pairs; without it only accuracy is judged");
+  regress->add_option("--baseline-program", a->baseline_program,
+                      "program of the baseline's commit: it runs alternately with this one, and "
+                      "speed is compared over the pairs; without it, only accuracy is compared");
   regress->add_option("-o,--output", a->output, "folder of the results; without it out/NAME");
   regress->add_option("--only", a->only, "only experiments whose name contains this text");
-  regress->add_flag("--update", a->update, "replace the baseline by what is measured");
-  regress->add_option("--reason", a->reason, "why the baseline may be replaced; kept in it");
-  regress->add_flag("--stored", a->stored, "judge the last measurement instead of measuring");
+  regress->add_flag("--update", a->update, "replace the baseline by the measured numbers");
+  regress->add_option("--reason", a->reason, "reason for replacing the baseline; stored in it");
+  regress->add_flag("--stored", a->stored,
+                    "compare the last measurement instead of measuring again");
   regress->footer(
       "Exit codes: 0 within tolerance, 4 a run failed, 5 accuracy regressed, 6 speed regressed, "
       "7 nothing measured or less than the baseline holds, 2 bad configuration, 3 damaged files.");

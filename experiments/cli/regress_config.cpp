@@ -113,11 +113,10 @@ void ReadExperimentRepeats(const GatedExperiment& gated, const fs::path& folder,
 
 void GatedExperiment::Describe(Fields& f) {
   f.File("experiment", experiment, {.meaning = "experiment file", .required = true});
-  f.Integer(
-      "repeats", repeats,
-      {.meaning = "how often the experiment is carried out; speed is the median over the repeats",
-       .min = 1,
-       .max = 100});
+  f.Integer("repeats", repeats,
+            {.meaning = "number of repeats of the experiment; speed is the median over the repeats",
+             .min = 1,
+             .max = 100});
 }
 
 void RegressSettings::Describe(Fields& f) {
@@ -126,7 +125,7 @@ void RegressSettings::Describe(Fields& f) {
          {.meaning = "what the gate protects, for readers of the config"});
   f.List("experiments", experiments,
          {.meaning = "experiments that are measured", .required = true});
-  f.Section("tolerances", tolerances, {.meaning = "changes that are not yet a regression"});
+  f.Section("tolerances", tolerances, {.meaning = "changes that do not count as a regression"});
 }
 
 std::vector<GatedExperiment> Selected(const RegressSettings& settings, const std::string& only) {

@@ -1,4 +1,4 @@
-// What `vitruvia regress` measures, and the measuring.
+// The experiments that `vitruvia regress` measures, and their measurement.
 #pragma once
 
 #include <filesystem>
@@ -29,9 +29,10 @@ struct RegressSettings {
 // Those experiments whose name (experiment_config.h, ConfigName) contains `only`.
 std::vector<GatedExperiment> Selected(const RegressSettings& settings, const std::string& only);
 
-// Carries out every repeat of every experiment anew, below `folder`/repeat-N/, one run after the
-// other: repeats of one experiment are apart in time, so that a slow minute of the machine meets
-// one of them only. Sequences and learnt models are kept in `shared`. Pictures are not drawn.
+// Runs every repeat of every experiment again, below `folder`/repeat-N/, one run after the other.
+// Repeats of one experiment are separated in time, so that a temporary slowdown of the machine
+// affects only one of them. Sequences and learnt models are kept in `shared`. Pictures are not
+// drawn.
 //
 // With a `baseline_program` (else empty) each repeat is also carried out by that program, with its
 // own `run` command, below `folder`/baseline/: this program first in odd repeats, the baseline's
@@ -40,13 +41,13 @@ void MeasureRepeats(const std::vector<GatedExperiment>& experiments,
                     const std::filesystem::path& folder, const std::filesystem::path& shared,
                     const std::filesystem::path& baseline_program);
 
-// The numbers of all repeats as they lie there. A run that failed or is missing in any repeat is a
-// failure. DataError if a record is damaged or an experiment has not been measured.
+// The numbers of all repeats stored below `folder`. A run that failed or is missing in any repeat
+// is a failure. DataError if a record is damaged or an experiment has not been measured.
 MeasuredRuns ReadRepeats(const std::vector<GatedExperiment>& experiments,
                          const std::filesystem::path& folder);
 
-// The same of the baseline's program. `problem` says why where its runs are not there, failed or
-// cannot be read.
+// The same for the baseline's program. `problem` gives the reason if its runs are missing, failed
+// or cannot be read.
 SpeedReference ReadReference(const std::vector<GatedExperiment>& experiments,
                              const std::filesystem::path& folder);
 

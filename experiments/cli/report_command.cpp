@@ -78,7 +78,7 @@ PaperFormat FormatOf(const ReportArguments& a) {
 }
 
 void Report(const ReportArguments& a) {
-  const PaperFormat format = FormatOf(a);  // what is wrong with it is told before anything is drawn
+  const PaperFormat format = FormatOf(a);  // reports its errors before anything is drawn
   const fs::path folder = ExperimentFolder(a.experiment, a.output);
   PrintProblems(ReadExperiment(folder));
   fmt::print("report: {}\n", WriteReport(folder).string());

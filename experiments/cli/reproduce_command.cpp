@@ -85,13 +85,15 @@ void AddReproduceCommand(CLI::App& app) {
   auto a = std::make_shared<ReproduceArguments>();
   CLI::App* reproduce = app.add_subcommand(
       "reproduce",
-      "Make the papers' figures and tables anew, on one page with each claim's verdict");
+      "Reproduce the papers' figures and tables on one page, with a verdict on each claim");
   reproduce->add_option("LIST", a->list, "list file; configs/reproduction.json without");
   reproduce->add_option("-o,--output", a->output,
                         "folder of the page and of its runs; out/reproduction without");
   reproduce->add_option("--only", a->only, "only these figures: A11,B4")->delimiter(',');
   reproduce->add_flag("--list", a->lists, "only print the figures and their experiments");
-  reproduce->add_option("-j,--jobs", a->jobs, "number of runs at a time; timed runs go one by one")
+  reproduce
+      ->add_option("-j,--jobs", a->jobs,
+                   "number of concurrent runs; timed runs are executed one by one")
       ->check(CLI::Range(1, kMostJobs));
   reproduce->footer(kFooter);
   reproduce->callback([a] { Reproduce(*a); });

@@ -1,4 +1,4 @@
-// `vitruvia reproduce`: the papers' figures and tables made anew, on one page.
+// `vitruvia reproduce`: reproduces the papers' figures and tables on one page.
 #pragma once
 
 namespace CLI {

@@ -101,7 +101,7 @@ void AddRescoreCommand(CLI::App& app) {
   };
   auto a = std::make_shared<RescoreArguments>();
   CLI::App* rescore = app.add_subcommand(
-      "rescore", "Compute all metrics again from stored estimates, without tracking");
+      "rescore", "Recompute all metrics from stored estimates, without tracking");
   AddExperimentArgument(*rescore, a->experiment, a->output);
   rescore->add_option("--only", a->only, "only runs whose id matches this pattern (* ? [abc])");
   rescore->footer(

@@ -1,4 +1,4 @@
-// `vitruvia rescore`: every metric of an experiment again, from the stored estimates.
+// `vitruvia rescore`: recomputes all metrics of an experiment from the stored estimates.
 #pragma once
 
 namespace CLI {

@@ -116,7 +116,7 @@ void AddRigCommand(CLI::App& app) {
                    "frame; y up")
       ->required();
   command->add_option("--space", a->space, "folder of the shape space")->required();
-  command->add_option("--unit", a->unit_m, "length that 1 stands for in the meshes, m")
+  command->add_option("--unit", a->unit_m, "unit of length of the meshes, m")
       ->check(CLI::Range(1e-6, 1e3))
       ->capture_default_str();
   AddPersonOptions(*command, a->person);

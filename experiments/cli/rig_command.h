@@ -1,4 +1,4 @@
-// vitruvia rig: a subject of a person's meshes.
+// vitruvia rig: makes a subject from a person's meshes.
 #pragma once
 
 namespace CLI {

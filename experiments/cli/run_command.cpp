@@ -78,7 +78,7 @@ void PrintRows(const fs::path& folder, const std::vector<PlannedRun>& runs) {
   }
 }
 
-// The shard that finds no run missing draws the report; the others would draw a part only.
+// The shard that finds no missing run draws the report; the others would draw only a part of it.
 void FinishExperiment(const fs::path& folder, bool is_shard) {
   const int missing = WriteSummary(folder);
   if (is_shard && missing > 0) {
@@ -107,7 +107,7 @@ void RequireSuccess(const PlannedExperiment& plan, const std::vector<PlannedRun>
                 fmt::format("too many frames failed in {} of {} runs", doubtful, runs.size()));
 }
 
-// Their status only: who reads the folder meanwhile still finds the records.
+// Removes only their status, so that readers of the folder still find the records.
 void ForgetRuns(const fs::path& folder, const std::vector<PlannedRun>& runs) {
   for (const PlannedRun& run : runs) {
     const std::optional<FileLock> claim = ClaimRun(folder / run.run_id);
@@ -135,7 +135,7 @@ ExperimentOutcome CarryOutOrSayHowFar(const PlannedExperiment& plan,
 
 void CarryOut(const PlannedExperiment& plan, const std::vector<PlannedRun>& runs,
               const RunArguments& arguments) {
-  MachineLockFile();  // what is wrong with it is told before anything is written
+  MachineLockFile();  // reports its errors before anything is written
   WritePlan(plan.experiment, plan.file, plan.folder);
   if (arguments.again) ForgetRuns(plan.folder, runs);
   const ExperimentOutcome outcome = CarryOutOrSayHowFar(plan, runs, arguments.jobs);
@@ -145,7 +145,7 @@ void CarryOut(const PlannedExperiment& plan, const std::vector<PlannedRun>& runs
   RequireSuccess(plan, runs, outcome);
 }
 
-// What is left to do, and how long that takes as far as stored runs tell.
+// The remaining runs, and an estimate of their time from stored runs.
 class Workload {
  public:
   void Add(RunState state, std::optional<double> seconds) {
@@ -199,7 +199,7 @@ void Run(const RunArguments& arguments) {
 
 void AddRunCommand(CLI::App& app) {
   auto a = std::make_shared<RunArguments>();
-  CLI::App* run = app.add_subcommand("run", "Carry out an experiment and write its report");
+  CLI::App* run = app.add_subcommand("run", "Run an experiment and write its report");
   run->add_option("EXPERIMENT", a->experiment, "experiment file")->required();
   run->add_option("-o,--output", a->output, "the experiment's folder; without it out/NAME");
   run->add_option("--only", a->selection.only,
@@ -207,11 +207,12 @@ void AddRunCommand(CLI::App& app) {
   run->add_option(
       "--shard", a->selection.shard,
       "i/n: only every n-th run, beginning with the i-th; the shards share one output folder");
-  run->add_option("-j,--jobs", a->jobs, "number of runs at a time; timed runs go one by one")
+  run->add_option("-j,--jobs", a->jobs,
+                  "number of concurrent runs; timed runs are executed one by one")
       ->check(CLI::Range(1, kMostJobs));
   run->add_flag("--dry-run", a->dry_run,
                 "only print the runs, the state of each, and an estimate of the time");
-  run->add_flag("--again", a->again, "carry out the chosen runs again, also those that are done");
+  run->add_flag("--again", a->again, "run the chosen runs again, including those that are done");
   run->footer(kRunFooter);
   run->callback([a] { Run(*a); });
 }

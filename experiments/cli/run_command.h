@@ -1,4 +1,4 @@
-// `vitruvia run`: carries out an experiment, or says what that would mean (--dry-run).
+// `vitruvia run`: runs an experiment, or prints its plan (--dry-run).
 #pragma once
 
 namespace CLI {
@@ -7,7 +7,7 @@ class App;
 
 namespace vitruvia {
 
-// Runs at a time that can be asked for.
+// Upper limit of the number of concurrent runs.
 inline constexpr int kMostJobs = 1024;
 
 void AddRunCommand(CLI::App& app);

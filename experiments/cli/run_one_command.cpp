@@ -11,13 +11,13 @@ namespace vitruvia {
 
 void AddRunOneCommand(CLI::App& app) {
   const auto a = std::make_shared<RunProcess>();
-  CLI::App* command =
-      app.add_subcommand("run-one", "Carry out one run; `vitruvia run` starts it for each run");
+  CLI::App* command = app.add_subcommand(
+      "run-one", "Execute one run; `vitruvia run` starts this command for each run");
   command->group("");  // not for people: it takes no locks of its own
   command->add_option("FOLDER", a->run_folder, "the run's folder, with its run.json")->required();
   command->add_option("--parent", a->parent, "process id of the `vitruvia run` that starts it")
       ->required();
-  command->add_option("--jobs", a->jobs, "runs that go on at a time")->required();
+  command->add_option("--jobs", a->jobs, "number of concurrent runs")->required();
   command->callback([a] {
     const int code = CarryOutRun(*a, CarryOutAnyRun);
     if (code != 0) throw CLI::RuntimeError(code);

@@ -24,7 +24,7 @@ std::string NoteOn(const RunStatus& status, double limit) {
   return status.reason.empty() ? "" : ": " + status.reason;
 }
 
-// Runs of settings that the experiment no longer has: named, or removed.
+// Lists or removes the runs that the experiment no longer contains.
 void HandleOldRuns(const fs::path& folder, const StoredPlan& plan, bool prune) {
   const std::vector<fs::path> old = OldRunFolders(folder, plan);
   for (const fs::path& run : old) {
@@ -58,7 +58,7 @@ void PrintStatus(const fs::path& folder, const StoredPlan& plan, bool prune) {
                 fmt::format("too many frames failed in {} runs", doubtful));
 }
 
-// What the experiment file means now, to this build.
+// Prints the status of the experiment file's current plan with this build.
 void PrintStatusOfFile(const fs::path& experiment_file, const fs::path& output, bool prune) {
   const PlannedExperiment planned = PlanForOutput(experiment_file, output);
   StoredPlan plan;
@@ -67,7 +67,7 @@ void PrintStatusOfFile(const fs::path& experiment_file, const fs::path& output, 
   PrintStatus(planned.folder, plan, prune);
 }
 
-// What it meant when the folder was last written to.
+// Prints the status of the folder's stored plan.
 void PrintStatusOfFolder(const fs::path& folder, bool prune) {
   const StoredPlan plan = ReadStoredPlan(folder);
   if (plan.build_id != GetBuildInfo().build_id)
@@ -85,13 +85,13 @@ void AddStatusCommand(CLI::App& app) {
   auto a = std::make_shared<StatusArguments>();
   CLI::App* status = app.add_subcommand(
       "status",
-      "Say which runs of an experiment are done, failed, damaged, stale, running or missing");
+      "Print which runs of an experiment are done, failed, damaged, stale, running or missing");
   status->footer(kStatusFooter);
   status->add_option("EXPERIMENT", a->experiment, "experiment file, or an experiment's folder")
       ->required();
   status->add_option("-o,--output", a->output, "the experiment's folder; without it out/NAME");
   status->add_flag("--prune", a->prune,
-                   "remove the folders of runs of settings that the experiment no longer has");
+                   "remove the folders of runs that the experiment no longer contains");
   status->callback([a] {
     if (!fs::is_directory(a->experiment))
       return PrintStatusOfFile(a->experiment, a->output, a->prune);

@@ -1,4 +1,4 @@
-// `vitruvia status`: how far the runs of an experiment are.
+// `vitruvia status`: prints the progress of an experiment's runs.
 #pragma once
 
 namespace CLI {

@@ -93,13 +93,13 @@ void AddSubjectCommand(CLI::App& app) {
   auto a = std::make_shared<SubjectArguments>();
   CLI::App* command = app.add_subcommand(
       "subject",
-      "Make a subject of a person who was not scanned: of height, weight and sex, or of frames");
+      "Make the subject of a person without a scan, from height, weight and sex, or from frames");
   command->add_option("--space", a->space, "folder of the shape space")->required();
   AddPersonOptions(*command, a->person);
   command->add_option("--sequence", a->sequence,
                       "sequence of the person: the shape is fitted to its frames");
   command->add_option("--settings", a->settings,
-                      "JSON file of how it is fitted to frames; without it the defaults");
+                      "JSON file with the settings of the fit to frames; without it the defaults");
   command->add_option("-o,--output", a->output, "folder of the subject")->required();
   command->footer(
       "The body is the most probable one of the space with these attributes. Where the space has "

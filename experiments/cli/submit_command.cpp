@@ -159,7 +159,7 @@ void Submit(const SubmitArguments& arguments) {
 void AddSubmitCommand(CLI::App& app) {
   auto a = std::make_shared<SubmitArguments>();
   CLI::App* submit = app.add_subcommand(
-      "submit", "Carry out an experiment on a Slurm cluster, as a job array of shards");
+      "submit", "Run an experiment on a Slurm cluster, as a job array of shards");
   submit->add_option("EXPERIMENT", a->experiment, "experiment file")->required();
   submit->add_option("-o,--output", a->output, "the experiment's folder; without it out/NAME");
   submit

@@ -64,19 +64,20 @@ void AddSufficientCommand(CLI::App& app) {
                    "experiment file; the overrides of each variant leave one part out")
       ->required();
   command
-      ->add_option("--margin", a->settings.margin,
-                   "how much larger than the full model's error the error may be, as a share of it")
+      ->add_option(
+          "--margin", a->settings.margin,
+          "allowed increase of the error over the full model's, relative to the full model's error")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
   command
       ->add_option("--metric", a->settings.metric,
-                   "key of a metric of which less is better (vitruvia explain)")
+                   "key of a metric for which lower is better (vitruvia explain)")
       ->capture_default_str();
   command->add_option("-o,--output", a->output,
                       "folder of the runs; without it out/sufficient/NAME");
   command
       ->add_option("-j,--jobs", a->settings.jobs,
-                   "number of runs at a time; with more than one, times are less exact")
+                   "number of concurrent runs; with more than one, times are less accurate")
       ->check(CLI::Range(1, kMostSufficientJobs));
   command->callback([a] { FindAndPrint(*a); });
 }

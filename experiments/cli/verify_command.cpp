@@ -21,7 +21,7 @@ void AddVerifyCommand(CLI::App& app) {
   auto folder = std::make_shared<fs::path>();
   CLI::App* verify = app.add_subcommand(
       "verify",
-      "Check a sequence: files whole; depth, camera, truth and subject agree with each other");
+      "Check a sequence: files are intact, and depth, camera, truth and subject are consistent");
   verify->add_option("SEQ", *folder, "folder of the sequence")->required();
   verify->callback([folder] { VerifyStored(*folder); });
 }

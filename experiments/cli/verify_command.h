@@ -11,8 +11,8 @@ namespace vitruvia {
 
 void AddVerifyCommand(CLI::App& app);
 
-// Decodes a whole sequence and holds its parts against each other. Prints warnings; DataError with
-// the first thing that cannot be true.
+// Decodes a whole sequence and checks the consistency of its parts. Prints warnings; DataError with
+// the first error.
 void VerifyStored(const std::filesystem::path& folder);
 
 }  // namespace vitruvia

@@ -59,21 +59,22 @@ void View(const ViewArguments& arguments) {
 
 void AddViewCommand(CLI::App& app) {
   auto a = std::make_shared<ViewArguments>();
-  CLI::App* command = app.add_subcommand(
-      "view", "Write a page in which runs are seen in three dimensions, in lockstep");
+  CLI::App* command =
+      app.add_subcommand("view", "Write a page that shows runs synchronously in three dimensions");
   command
       ->add_option("RUN", a->runs,
                    "folders of runs, EXPERIMENT/RUN_ID; or an experiment's folder: all its runs")
       ->required();
-  command->add_option("-o,--output", a->page, "the page; of a single run RUN/view.html without it");
+  command->add_option("-o,--output", a->page, "the page; default for a single run: RUN/view.html");
   command
       ->add_option("--frames", a->limits.most_frames,
-                   "most frames with surfaces and depth; further frames have numbers and joints")
+                   "maximum number of frames with surfaces and depth; further frames have only "
+                   "numbers and joints")
       ->capture_default_str()
       ->check(CLI::Range(2, 100'000));
   command
       ->add_option("--vertices", a->limits.most_vertices,
-                   "most vertices of a surface; larger meshes are thinned")
+                   "maximum number of vertices of a surface; larger meshes are decimated")
       ->capture_default_str()
       ->check(CLI::Range(100, 1'000'000));
   command->callback([a] { View(*a); });

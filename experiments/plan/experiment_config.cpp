@@ -32,7 +32,7 @@ void VariantSettings::Describe(Fields& f) {
          {.meaning = "body model that the tracker is given: a subject file (the person is scanned "
                      "and a shape is fitted) or the folder of a subject (mesh.ply, subject.json, "
                      "weights.bin); without this key the sequence's own template"});
-  f.Section("faults", faults, {.meaning = "damage done to the tracker's input"});
+  f.Section("faults", faults, {.meaning = "faults injected into the tracker's input"});
 }
 
 std::string VariantSettings::Problem() const {
@@ -83,8 +83,8 @@ Expectation ExpectationSettings::AsRecorded() const {
 
 namespace {
 
-// A variant that is about none of the methods, or a method that no variant is about: nothing would
-// be run of it, and nobody told.
+// A variant that applies to none of the methods, or a method without a variant: it would silently
+// not be run.
 std::string UnusedVariantOrMethod(const ExperimentSettings& settings) {
   for (const VariantSettings& variant : settings.variants) {
     if (std::ranges::none_of(settings.methods,
@@ -112,38 +112,36 @@ void ExperimentSettings::Describe(Fields& f) {
           {.meaning = "folders of stored sequences, recorded or imported, that are tracked too"});
   f.Files("methods", methods, {.meaning = "method files", .required = true});
   f.List("variants", variants,
-         {.meaning = "named overrides; every scene is tracked by every method with each of them"});
+         {.meaning = "named overrides; each method tracks each scene with each variant"});
   f.Section("sweep", sweep,
-            {.meaning = "settings that take several values; each value makes a variant of every "
-                        "variant"});
+            {.meaning = "settings that take several values; every variant is run with each value"});
   f.Integers(
       "seeds", seeds,
       {.meaning = "seeds of the scenes' random numbers; the whole grid is carried out with each",
        .min = 0,
        .max = 1e9});
+  f.Integer("repeats", repeats,
+            {.meaning = "number of times that each run is repeated, to measure its time several "
+                        "times; all other results are equal",
+             .min = 1,
+             .max = 1000});
   f.Integer(
-      "repeats", repeats,
-      {.meaning = "how often each run is carried out, to measure its time several times; all other "
-                  "results are equal",
-       .min = 1,
-       .max = 1000});
-  f.Integer("most_frames", most_frames,
-            {.meaning = "number of frames of each scene at most, for a quick look; 0 is as many as "
-                        "the scene says",
-             .unit = "frames",
-             .min = 0,
-             .max = 1e6});
+      "most_frames", most_frames,
+      {.meaning =
+           "maximum number of frames of each scene, for quick tests; 0: all frames of the scene",
+       .unit = "frames",
+       .min = 0,
+       .max = 1e6});
   f.Flag("timed", timed,
-         {.meaning = "true: the experiment measures times, so its runs are carried out one by one "
-                     "while no other run goes on on the machine; false: runs may go in parallel "
-                     "(-j)"});
-  f.Number(
-      "failed_frames_limit", failed_frames_limit,
-      {.meaning = "share of a run's frames that may fail; with more, run and status say so and "
-                  "end with exit code 8",
-       .min = 0.0,
-       .max = 1.0,
-       .origin = Origin::kGuessed});
+         {.meaning =
+              "true: the experiment measures times, so its runs are executed one by one while no "
+              "other run is active on the machine; false: runs may be executed in parallel (-j)"});
+  f.Number("failed_frames_limit", failed_frames_limit,
+           {.meaning = "largest share of a run's frames that may fail; above it, run and status "
+                       "report the failure and end with exit code 8",
+            .min = 0.0,
+            .max = 1.0,
+            .origin = Origin::kGuessed});
   f.List("expectations", expectations,
          {.meaning = "values of the paper that the report prints beside ours"});
   f.Integers(

@@ -16,14 +16,14 @@ namespace vitruvia {
 
 inline constexpr const char* kTrackingKind = "tracking";
 
-// Default of the share of a run's frames that may fail.
+// Default of the largest share of a run's frames that may fail.
 inline constexpr double kFailedFramesLimit = 0.5;
 
 // Named overrides (RFC 7386 merge patches) of the scene file and of the method file.
 struct VariantSettings {
   std::string name;
   std::string description;
-  std::vector<std::string> methods;  // patterns of the methods that it is about; empty: all
+  std::vector<std::string> methods;  // patterns of the methods that it applies to; empty: all
   Json scene = Json::object();
   Json method = Json::object();
   // A subject file (fitted_subject.h) or the folder of a body (body_model.h). Without one the
@@ -71,10 +71,10 @@ struct ExperimentSettings {
   std::string Problem() const;
 };
 
-// Whether the variant is about the method of that file.
+// Whether the variant applies to the method of that file.
 bool IsAbout(const VariantSettings& variant, const std::filesystem::path& method_file);
 
-// The name of variants that an experiment without any has.
+// The name of the single variant of an experiment without variants.
 inline constexpr const char* kDefaultVariant = "default";
 
 // Whether the name can be part of a folder's name: letters, digits, . _ - only.

@@ -7,8 +7,8 @@
 
 namespace vitruvia {
 
-// What is wrong with the overrides that stand under that key, or "". Expected is an object without
-// null anywhere: a merge patch removes a key that is null, and its default would be used unnoticed.
+// The problem of the overrides under that key, or "". They must be an object without any null: a
+// merge patch would remove a key that is null, and its default would be used unnoticed.
 std::string OverridesProblem(const std::string& key, const Json& overrides);
 
 }  // namespace vitruvia

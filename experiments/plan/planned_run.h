@@ -1,5 +1,5 @@
-// What an experiment file stands for, whatever its kind: a list of runs that can be carried out one
-// by one, in any order and by any process.
+// The plan of an experiment file of any kind: a list of runs that can be executed one by one, in
+// any order and by any process.
 #pragma once
 
 #include <filesystem>
@@ -13,22 +13,22 @@
 
 namespace vitruvia {
 
-// Where work is kept that several runs share.
+// Folders for results that several runs share.
 struct WorkFolders {
   std::filesystem::path sequences;
   std::filesystem::path learned;  // models and fitted subjects
 };
 
-// All that another process needs to carry out the run, without the experiment file: what the file
-// says may change while the experiment goes on. Stored as run.json in the run's folder.
+// Everything that another process needs to execute the run without the experiment file, which may
+// change while the experiment is running. Stored as run.json in the run's folder.
 struct PlannedRun {
   static constexpr StoredFormat kFormat{"vitruvia-run", 1, 1, "run the experiment again"};
 
   std::string experiment;  // its name
-  std::string kind;        // of the experiment; says which function carries out the run
+  std::string kind;        // of the experiment; selects the function that executes the run
   std::string run_id;
   std::string key;  // CacheKey(resolved)
-  // Every setting that the result depends on; files are named as seen from the folder in which the
+  // Every setting that the result depends on; files are relative to the folder in which the
   // experiment was planned.
   Json resolved = Json::object();
   std::string variant, scene, method;  // as the run's record names them; "" if it has none
@@ -36,13 +36,13 @@ struct PlannedRun {
   int repeat = 0;      // 1, 2, … where the same run is carried out several times
   int person = 0;      // number in the population, for experiments about people
   int frames = 0;      // 0: the run has none
-  bool timed = false;  // nothing else may run beside it on its machine
+  bool timed = false;  // no other run may run on its machine at the same time
   WorkFolders work;
-  // Of the experiment's own; what is stored for tracking does not depend on them.
+  // Summaries that the experiment defines; the stored estimate does not depend on them.
   std::vector<FrameSummary> summaries;
 
   std::optional<CachedFolder>
-      shares;  // not stored: work that the first of several runs does for all
+      shares;  // not stored: result that the first of several runs builds for all
 
   void Describe(Fields& fields);
 };

@@ -13,7 +13,7 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
-// Long enough for any sweep that a person reads, short enough for a folder's name.
+// Long enough for readable sweeps, short enough for a folder's name.
 constexpr std::size_t kLongestRunId = 200;
 
 // What is tracked: a scene file, or the folder of a stored sequence.
@@ -138,7 +138,7 @@ void AddRuns(const Recording& recording, const fs::path& method, const VariantSe
   }
 }
 
-// A mistyped number must not keep a machine busy with planning alone.
+// Limit of the number of runs, so that a mistyped number does not make planning endless.
 constexpr double kMostRuns = 100000;
 
 void RequireFewEnough(const ExperimentSettings& settings, std::size_t variants,

@@ -1,4 +1,4 @@
-// The runs that a tracking experiment stands for.
+// The runs of a tracking experiment.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@
 namespace vitruvia {
 
 // One cell of the grid scenes × methods × variants × sweep × seeds × repeats, with all settings
-// resolved. A stored sequence takes the place of a scene and has one seed, the first.
+// resolved. A stored sequence replaces a scene and is run only with the first seed.
 struct RunPlan {
   std::string run_id;   // variant, scene, method, seed, repeat and a hash of the resolved config
   std::string variant;  // the variant's name and the label of the sweep's point
@@ -37,14 +37,14 @@ struct RunPlan {
 
 struct ExperimentPlan {
   ExperimentRecord record;  // without failures
-  bool timed = false;       // nothing else may run beside its runs
+  bool timed = false;       // its runs must be the only ones on their machine
   double failed_frames_limit = kFailedFramesLimit;
   std::vector<RunPlan> runs;
 };
 
 // Reads the experiment and everything it names. Throws ConfigError before anything has run.
 ExperimentPlan PlanExperiment(const std::filesystem::path& experiment_file);
-// The same of settings that were read from that file, and perhaps changed since.
+// The same for settings that were read from that file and may have been changed.
 ExperimentPlan PlanExperiment(const ExperimentSettings& settings,
                               const std::filesystem::path& experiment_file);
 

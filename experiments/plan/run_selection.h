@@ -1,4 +1,4 @@
-// Which runs of an experiment one call is about.
+// Selects the runs of an experiment that a call executes.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@ struct RunSelection {
   std::string shard;  // "i/n": every n-th run from the i-th, 1 ≤ i ≤ n; "": all
 };
 
-// In the grid's order; shards are parts of what `only` leaves. ConfigError if the pattern matches
-// nothing or the shard is none. A shard can be empty.
+// The selected runs in the grid's order; shards divide the runs that `only` selects. ConfigError if
+// the pattern matches nothing or the shard is invalid. A shard can be empty.
 std::vector<PlannedRun> SelectedRuns(const std::vector<PlannedRun>& runs,
                                      const RunSelection& selection);
 

@@ -40,7 +40,7 @@ std::string NameOfValue(const Json& value) {
   return name;
 }
 
-// Settings of the method are what sweeps are about: their prefix goes without saying.
+// Most sweeps are over settings of the method, so their prefix is left out.
 std::string NameOfSetting(const std::string& setting) {
   const std::string prefix = kMethodSettings;
   return setting.starts_with(prefix) ? setting.substr(prefix.size()) : setting;
@@ -88,8 +88,8 @@ void SweepAxis::Describe(Fields& f) {
              .min = 0,
              .max = kMostSteps});
   f.Choice("scale", scale, {{"linear", SweepScale::kLinear}, {"log", SweepScale::kLogarithmic}},
-           {.meaning = "whether differences or ratios of neighbours in the range are equal; also "
-                       "the scale of plots over the setting"});
+           {.meaning = "spacing of the values in the range: equal differences or equal ratios; "
+                       "also the scale of plots over the setting"});
 }
 
 std::string SweepAxis::Problem() const {
@@ -117,8 +117,8 @@ std::string SweepAxis::Problem() const {
 void SweepSettings::Describe(Fields& f) {
   f.Choice("design", design,
            {{"grid", SweepDesign::kGrid}, {"one_at_a_time", SweepDesign::kOneAtATime}},
-           {.meaning = "every combination of the axes' values; or nothing changed, then each value "
-                       "of each axis alone"});
+           {.meaning = "points of the sweep: all combinations of the axes' values; or the "
+                       "defaults, then each value of each axis alone"});
   f.List("axes", axes, {.meaning = "settings and their values", .required = true});
 }
 

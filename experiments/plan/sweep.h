@@ -8,9 +8,9 @@
 //     ]
 //   }
 //
-// Each variant of the experiment is carried out with each point of the sweep. The variant's name
-// says which: "default,fit.edge_px=2,scene.frames=30". "scale" also says how a plot over the
-// setting shows it.
+// Each variant of the experiment is run with each point of the sweep, whose label is appended to
+// the variant's name: "default,fit.edge_px=2,scene.frames=30". "scale" is also the scale of plots
+// over the setting.
 #pragma once
 
 #include <string>
@@ -46,9 +46,9 @@ struct SweepSettings {
   std::string Problem() const;
 };
 
-// Overrides (RFC 7386 merge patches), as a variant has them, and what they are called.
+// Overrides (RFC 7386 merge patches), as in a variant, and their label.
 struct SweepPoint {
-  std::string label;  // ",fit.edge_px=2": what a variant's name gains; "" where nothing is changed
+  std::string label;  // suffix of the variant's name, ",fit.edge_px=2"; "" if nothing is changed
   Json scene = Json::object(), method = Json::object();
 };
 

@@ -1,4 +1,4 @@
-// Programs that run in processes beside this one, so that a crash costs one piece of work only.
+// Child processes, so that a crash affects only one piece of work.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@ struct ChildCommand {
   std::vector<int> inherited;          // descriptors that stay open in the child, such as locks
 };
 
-// Children of this process, started by posix_spawn: it does not matter which threads there are.
+// Children of this process, started by posix_spawn, which is safe with any threads running.
 class ChildProcesses {
  public:
   ChildProcesses() = default;

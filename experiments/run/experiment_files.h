@@ -1,5 +1,5 @@
-// The files of an experiment's folder that are about all of its runs: plan.json, experiment.json
-// and summary.json.
+// The files of an experiment's folder that describe all of its runs: plan.json, experiment.json and
+// summary.json.
 #pragma once
 
 #include <filesystem>
@@ -9,21 +9,21 @@
 
 namespace vitruvia {
 
-// To be held while files about the whole experiment are written.
+// Must be held while these files are written.
 FileLock LockExperiment(const std::filesystem::path& folder);
 
-// ConfigError if the folder holds the output of another experiment file, which must not be
-// replaced: two files of one name, say. A file that is gone is taken for this one under an older
-// name.
+// ConfigError if the folder holds the output of another experiment file, which must not be replaced
+// (for example of another file with the same name). If the other file no longer exists, it is
+// assumed to have been renamed to this one.
 void RequireOwnFolder(const std::filesystem::path& folder,
                       const std::filesystem::path& experiment_file);
 
-// Writes what status and report need to know of the whole grid: experiment.json and plan.json.
+// Writes experiment.json and plan.json, from which status and report read the whole grid.
 void WritePlan(const Experiment& experiment, const std::filesystem::path& experiment_file,
                const std::filesystem::path& folder);
 
-// Writes experiment.json and summary.json anew from the runs' folders; every caller writes the
-// same. Returns how many runs of the grid are neither done nor failed.
+// Rewrites experiment.json and summary.json from the runs' folders; all callers write the same
+// content. Returns the number of runs of the grid that are neither done nor failed.
 int WriteSummary(const std::filesystem::path& folder);
 
 }  // namespace vitruvia

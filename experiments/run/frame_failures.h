@@ -1,4 +1,4 @@
-// How many frames of a run failed, and whether these are too many.
+// The number of a run's failed frames, and whether there are too many.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ struct FrameFailures {
   std::string Text(double limit) const;
 };
 
-// Of a run record's summary; none of a run without frames.
+// Read from a run record's summary; zero for a run without frames.
 FrameFailures FrameFailuresOf(const Json& summary);
 
 }  // namespace vitruvia

@@ -1,9 +1,9 @@
-// The lock that keeps timed runs alone on their machine. Every process that carries out runs holds
-// it: shared for runs that may go together, exclusive for timed ones.
+// The lock that keeps timed runs alone on their machine. Every process that executes runs holds it:
+// shared for concurrent runs, exclusive for timed ones.
 //
 // All jobs and users of the machine must see the same file, so it does not depend on TMPDIR, which
 // batch systems set for each job. It is vitruvia-runs.lock in the folder that VITRUVIA_LOCK_DIR
-// names, or else in /run/lock, or in /tmp where /run/lock is not for all users to write.
+// names, or else in /run/lock, or in /tmp if /run/lock is not writable for all users.
 #pragma once
 
 #include <filesystem>

@@ -9,14 +9,14 @@
 
 namespace vitruvia {
 
-// Does the work of one run; writes what it likes into the run's folder.
+// Executes one run; may write any files into the run's folder.
 using RunWork =
     std::function<RunRecord(const PlannedRun& run, const std::filesystem::path& run_folder)>;
 
 struct RunProcess {
   std::filesystem::path run_folder;
   pid_t parent = 0;  // the process that started this one, and holds the run's lock
-  int jobs = 1;      // runs that go on at a time
+  int jobs = 1;      // number of concurrent runs
 };
 
 // Reads run.json, does the work, and leaves the record and the status in the run's folder. Returns

@@ -19,7 +19,8 @@ namespace vitruvia {
 
 enum class RunState {
   kDone,     // by this program, with these settings and files
-  kFailed,   // likewise; the next call of `run` tries it again
+  kFailed,   // by this program, with these settings and files; the next call of `run` tries it
+             // again
   kDamaged,  // done, but its record cannot be read any more
   kStale,    // done or failed with other settings or files, or by another build
   kRunning,  // a process carries it out now
@@ -39,13 +40,13 @@ RunStatus StatusOf(const std::filesystem::path& run_folder, const std::string& k
 void MarkDone(const std::filesystem::path& run_folder, const std::string& key);
 void MarkFailed(const std::filesystem::path& run_folder, const std::string& key,
                 const std::string& reason);
-void MarkBegun(const std::filesystem::path& run_folder);  // neither done nor failed any more
+void MarkBegun(const std::filesystem::path& run_folder);  // removes the marks "done" and "failed"
 
-// The right to carry out a run; nothing while another process has it.
+// Claims the exclusive right to execute a run; nothing if another process holds it.
 std::optional<FileLock> ClaimRun(const std::filesystem::path& run_folder);
 
-// What an experiment's folder was last planned for (plan.json), so that its state can be told
-// without the experiment file.
+// The last plan of an experiment's folder (plan.json), from which its state can be read without the
+// experiment file.
 struct StoredPlan {
   static constexpr StoredFormat kFormat{"vitruvia-plan", 1, 0, "run the experiment again"};
 

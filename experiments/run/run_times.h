@@ -1,4 +1,4 @@
-// How long runs take, as far as stored ones tell.
+// Estimates run times from stored runs.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ namespace vitruvia {
 
 class RunTimes {
  public:
-  // Learns from all records below the folder, whichever build they are of.
+  // Uses all records below the folder, of any build.
   explicit RunTimes(const std::filesystem::path& folder);
 
   // The median time of stored runs of the same method and frame count, seconds; nothing if there

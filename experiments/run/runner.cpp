@@ -50,14 +50,14 @@ class Scheduler {
     std::string prepares;  // the shared work that the run does first; "" if that was done before
   };
 
-  // Looks at no run while all jobs are taken: times are being measured, so it must cost nothing.
+  // Does not examine runs while all jobs are busy, because that would disturb time measurements.
   void StartWhatCanBe() {
     std::erase_if(pending_, [this](std::size_t i) {
       return children_.running() < site_.jobs && (Settled(i) || Started(i));
     });
   }
 
-  // Whether the run needs nothing more: it was done before or, meanwhile, by another process.
+  // Whether the run is finished: done before or, meanwhile, by another process.
   bool Settled(std::size_t i) {
     const RunStatus status = StatusOf(FolderOf(i), runs_[i]->key);
     if (status.state == RunState::kDone) ++outcome_.kept;

@@ -1,8 +1,9 @@
-// Carries out the runs of an experiment, each in a process of its own.
+// Executes the runs of an experiment, each in its own process.
 //
 // Several callers may work on one folder at the same time, here or on other machines that share it:
-// the one that claims a run carries it out, the others go on with the next and wait for it at the
-// end. A caller that is stopped or killed loses the runs in flight; the next call goes on.
+// the caller that claims a run executes it; the others continue with the next one and wait for it
+// at the end. If a caller is stopped or killed, its unfinished runs are lost; the next call
+// continues.
 #pragma once
 
 #include <filesystem>
@@ -22,10 +23,10 @@ struct ExperimentOutcome {
 inline constexpr const char* kThisProgram = "/proc/self/exe";
 
 // Carries out the runs that are not yet done, up to `jobs` at a time; timed runs last, one by one,
-// while no other run goes on on this machine. A run is `program run-one RUN_FOLDER …`
+// while no other run is active on this machine. A run is `program run-one RUN_FOLDER …`
 // (run_process.h). A run that fails is recorded and the others go on. Throws Error(kInterrupted)
-// when the user asks to stop. The calling thread must outlive the call, for runs are killed when it
-// ends.
+// when the user asks to stop. The calling thread must not end during the call, because the runs
+// would be killed.
 ExperimentOutcome CarryOutRuns(const std::vector<PlannedRun>& runs, int jobs,
                                const std::filesystem::path& folder,
                                const std::filesystem::path& program = kThisProgram);

@@ -27,8 +27,8 @@ fs::path ObtainSequence(const RunPlan& run, const WorkFolders& work) {
   return kept.path();
 }
 
-// What whoever reads the run's numbers should know: from the making of the sequence, and from its
-// verification. DataError if the sequence, or a subject that does not come with it, cannot be true.
+// Warnings for readers of the run's numbers, from the generation of the sequence and from its
+// verification. DataError if the sequence, or a subject from elsewhere, is inconsistent.
 std::vector<std::string> WarningsOf(const RunPlan& run, const SequenceReader& sequence) {
   const Json& made = sequence.info().provenance;
   std::vector<std::string> warnings;
@@ -94,7 +94,7 @@ void Track(const RunPlan& run, const SequenceReader& sequence, const WorkFolders
                 damage, estimate_folder);
 }
 
-// What names and explains the run; scores are added to it.
+// The record's identity, settings and provenance, to which scores are added.
 RunRecord RecordOf(const RunPlan& run, const std::string& experiment) {
   RunRecord record;
   record.run_id = run.run_id;

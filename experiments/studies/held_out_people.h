@@ -1,4 +1,4 @@
-// The people that a study keeps for testing.
+// Held-out people for the tests of a study.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// Experiments of the kind "model_drawing": no tracking, but drawings of a tracker's model itself,
-// for the papers' figures of it (paper A, figures 2 and 5; paper B, figure 2).
+// Experiments of the kind "model_drawing": drawings of a tracker's model, without tracking, for the
+// papers' figures of the models (paper A, figures 2 and 5; paper B, figure 2).
 #pragma once
 
 #include <filesystem>
@@ -44,7 +44,7 @@ BoneTree TreeOfSkeleton(const ModelSkeleton& skeleton);
 
 // One run. Throws ConfigError before anything has run.
 Experiment PlanModelStudy(const std::filesystem::path& file, const WorkFolders& work);
-// Leaves surfaces (records/surface_strips.h) and a tree (records/bone_tree.h).
+// Stores surfaces (records/surface_strips.h) and a tree (records/bone_tree.h).
 RunRecord CarryOutModelRun(const PlannedRun& run, const std::filesystem::path& run_folder);
 
 }  // namespace vitruvia

@@ -1,4 +1,4 @@
-// An experiment file as commands take it: what it plans and where its output goes.
+// A planned experiment file and the folder of its output.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@ struct PlannedExperiment {
   Experiment experiment;
   std::filesystem::path file;    // of the experiment
   std::filesystem::path folder;  // of its output
-  std::filesystem::path root;    // below which other experiments' output may lie too
+  std::filesystem::path root;    // folder that may also contain the output of other experiments
 };
 
 // Where the output of an experiment file goes: `output`, or out/NAME if that is "".

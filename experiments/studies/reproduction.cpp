@@ -100,7 +100,7 @@ std::vector<ReproducedFigure> WithOwnEval(std::vector<ReproducedFigure> figures)
 CarriedOutFigures CarryOutFigures(const ReproductionList& list,
                                   const std::vector<ReproducedFigure>& figures,
                                   const fs::path& root, int jobs) {
-  MachineLockFile();  // what is wrong with it is told before anything is written
+  MachineLockFile();  // reports its errors before anything is written
   std::vector<fs::path> files;
   for (const ReproducedFigure& figure : figures) {
     for (const fs::path& file : figure.experiments) {

@@ -12,10 +12,10 @@ namespace vitruvia {
 // The environment variable that names the user's folder of imported Stanford EVAL sequences.
 inline constexpr const char* kEvalVariable = "VITRUVIA_EVAL";
 
-// The figures as they are made here: from the user's EVAL sequences where there are any.
+// The figures with their EVAL experiments if the user has EVAL sequences.
 std::vector<ReproducedFigure> WithOwnEval(std::vector<ReproducedFigure> figures);
 
-// How long an experiment of the figures took in this call.
+// Time of an experiment of the figures in this call.
 struct ExperimentTime {
   std::filesystem::path experiment;
   double seconds = 0.0;

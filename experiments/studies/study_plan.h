@@ -1,4 +1,4 @@
-// What the plans of all studies have in common.
+// Shared parts of the plans of all studies.
 #pragma once
 
 #include <filesystem>

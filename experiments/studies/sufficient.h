@@ -1,4 +1,4 @@
-// The smallest model that a scene needs: parts are left out one after the other for as long as the
+// The smallest sufficient model for a scene: parts are removed one after the other as long as the
 // error stays within a margin of the full model's.
 #pragma once
 
@@ -16,14 +16,14 @@ struct SufficiencySettings {
   int jobs = 1;                               // runs at a time
 };
 
-// What a model costs, against the full one on the same scenes and seeds.
+// Costs of a model compared with the full one on the same scenes and seeds.
 struct ModelCost {
   double error = 0.0;        // mean of the metric
-  double error_ratio = 0.0;  // mean over pairs of a run's error by the full model's
+  double error_ratio = 0.0;  // mean over pairs of a run's error divided by the full model's
   double frame_ms = 0.0;     // mean of the runs' medians
 };
 
-// A round leaves out one part more than the round before, each of those left in turn.
+// A round removes one more part than the round before; it tries each remaining part.
 struct SufficiencyRound {
   struct Trial {
     std::string part;
@@ -31,7 +31,7 @@ struct SufficiencyRound {
     bool is_sufficient = false;
   };
   std::vector<Trial> trials;
-  std::string left_out;  // the part whose loss saves most; "" if the search ends here
+  std::string left_out;  // the part whose removal saves most; "" if the search ends here
 };
 
 struct Sufficiency {

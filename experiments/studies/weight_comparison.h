@@ -1,5 +1,5 @@
-// Are skinning weights the same for all people (paper A, sec. 4)? Learnt on several, compared, and
-// used for one another.
+// Tests whether skinning weights are the same for all people (paper A, sec. 4): learns them on
+// several people, compares them, and applies them to each other.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct WeightComparison {
   std::vector<int> alternations;   // per subject
   // Of the subject's own weights with their transforms, RMSE of a vertex.
   std::vector<double> own_rmse_m;
-  // [whose weights][on whom]: RMSE with the transforms fitted anew. N + 1 rows, N columns.
+  // [weights of][applied to]: RMSE with the transforms fitted again. N + 1 rows, N columns.
   std::vector<std::vector<double>> swapped_rmse_m;
   // [one][other]: half the sum of absolute differences of a vertex's weights, 0 … 1: the share of
   // it that follows other bones. N + 1 rows, N columns.

@@ -1,4 +1,4 @@
-// A user's own registered meshes, and the skinning weights learnt from them, as files.
+// Files of a user's registered meshes and of the skinning weights learnt from them.
 #pragma once
 
 #include <filesystem>
@@ -12,13 +12,13 @@
 
 namespace vitruvia {
 
-// Where the examples lie and what is known of the bones.
+// Paths of the examples and the sources of the initial bones.
 struct WeightExampleFiles {
   std::filesystem::path meshes;  // folder of PLY, OBJ and OFF files of one topology, a pose each
   std::filesystem::path rest;    // mesh; the rig's own if empty
   std::filesystem::path rig;     // body folder: its weights say where bones begin; or empty
   std::filesystem::path labels;  // text: one bone per vertex; or empty
-  int bones = 0;                 // without rig and labels: so many rigid pieces are looked for
+  int bones = 0;                 // without rig and labels: number of rigid pieces to find
 };
 
 struct WeightExamples {
@@ -30,9 +30,9 @@ struct WeightExamples {
   int bone_count = 0;
 };
 
-// ConfigError if it is not said what to start from; DataError naming the file on anything that is
-// not as above, on meshes of other topologies, on fewer than two poses, and on files in the folder
-// that are no meshes.
+// ConfigError if no initial bones are given; DataError naming the file for any violation of this
+// format, for different topologies, for fewer than two poses, and for files in the folder that are
+// not meshes.
 WeightExamples ReadWeightExamples(const WeightExampleFiles& files);
 
 // With a rig: a body folder with the learnt weights. Without: weights.bin as a body folder has it,

@@ -1,5 +1,5 @@
-// Experiments of the kind "skinning_weights" (paper A, figure 3): weights learnt from one person's
-// examples explain the examples of people that were not learnt from.
+// Experiments of the kind "skinning_weights" (paper A, figure 3): tests weights learnt from one
+// person's examples on the examples of held-out people.
 #pragma once
 
 #include <filesystem>

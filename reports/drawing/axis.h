@@ -1,4 +1,4 @@
-// Axes of plots: where a value lies, and which values are marked.
+// Axes of plots: positions of values, and ticks.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ class Axis {
   // From the last of 1, 2, 5 × 10ⁿ not above `low` to the first not below `high`; both positive.
   static Axis Logarithmic(double low, double high);
 
-  double Share(double value) const;  // 0 at the start, 1 at the end; values beyond are held there
+  double Share(double value) const;  // position of a value: 0 at the start, 1 at the end, clamped
   bool Holds(double value) const;
   // At round values: about `count` on a linear axis, each of 1, 2, 5 × 10ⁿ on a logarithmic one, or
   // of 10ⁿ where these are more than `count`.

@@ -36,7 +36,7 @@ void SetFont(cairo_t* cairo, const TextStyle& style) {
   cairo_select_font_face(cairo, kFontFamily, CAIRO_FONT_SLANT_NORMAL,
                          style.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(cairo, style.size);
-  // Widths in proportion to the size, or lines would end elsewhere at each scale.
+  // Widths proportional to the size, so that lines break at the same places at each scale.
   cairo_font_options_t* options = cairo_font_options_create();
   cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
   cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
@@ -165,7 +165,7 @@ std::string ToPdf(const std::vector<PageShape>& shapes, double width, double hei
   std::string file;
   const Surface surface =
       Owned(cairo_pdf_surface_create_for_stream(Append, &file, width * unit_pt, height * unit_pt));
-  // The same drawing is the same file at any time.
+  // A fixed date, so that the same drawing gives the same file.
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "");
   DrawAll(surface, shapes, unit_pt);
   cairo_surface_finish(surface.get());

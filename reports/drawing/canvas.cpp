@@ -20,8 +20,8 @@ double BaselineShift(const TextStyle& style) {
 
 namespace {
 
-// How many bytes of a word that is too wide go on a line: up to a sign that names are made of, or
-// as many letters as fit.
+// Number of bytes of a too wide word that fit on a line: up to a separator in the name, or as many
+// letters as fit.
 std::size_t BytesThatFit(const std::string& word, double width, const TextStyle& style) {
   std::size_t fits = 1, breaks = 0;
   for (std::size_t i = 1; i < word.size(); ++i) {

@@ -1,4 +1,5 @@
-// Flat drawings: lines, areas, text and pictures on a page, whatever format it is written in.
+// Two-dimensional drawings independent of the file format: lines, areas, text and pictures on a
+// page.
 #pragma once
 
 #include <string>
@@ -9,7 +10,7 @@
 
 namespace vitruvia {
 
-// Page units, origin top left, y down. The writer of a drawing says how long a unit is.
+// Page units, origin top left, y down. The writer of a drawing defines the length of a unit.
 struct Point {
   double x = 0.0, y = 0.0;
 };
@@ -35,14 +36,14 @@ struct TextStyle {
 
 // The face of all text. Arial and Helvetica have the same widths, for readers that lack it.
 inline constexpr const char* kFontFamily = "Liberation Sans";
-// How wide a text is in that face, page units.
+// Width of a text in that font, page units.
 double TextWidth(const std::string& text, const TextStyle& style);
 // From a text's point down to its baseline.
 double BaselineShift(const TextStyle& style);
 // The text in lines that are not wider than `width` where it has spaces to break at.
 std::vector<std::string> WrappedText(const std::string& text, double width, const TextStyle& style);
 
-// What a page says of a curve where the pointer is near one of its points.
+// Text that a page shows when the pointer is near a point of a curve.
 struct CurveHint {
   std::string name;                               // "": nothing
   std::vector<std::pair<double, double>> values;  // of each point
@@ -73,7 +74,7 @@ struct PictureShape {
   double width = 0.0, height = 0.0;
   const Picture* picture = nullptr;
 };
-// A place that answers to pointer and keyboard; nothing is seen of it, and only in an SVG.
+// An invisible area that shows its text on hover or keyboard focus; only in SVG.
 struct HintShape {
   Point center;
   double radius = 0.0;

@@ -1,4 +1,4 @@
-// Colours that stand for numbers, and the palette of the report.
+// Colour maps and the palette of the report.
 #pragma once
 
 #include <vector>
@@ -7,10 +7,10 @@
 
 namespace vitruvia {
 
-// Both maps are perceptually uniform: equal steps look equal, in grey and to the colour-blind too.
+// Both maps are perceptually uniform, also in grey and for colour-blind readers.
 
 // Depth: yellow is near, dark violet is far. `share` is 0 at the nearest depth shown and 1 at the
-// farthest; values beyond are held.
+// farthest; values beyond are clamped.
 Color DepthColor(double share);
 
 // Error: pale is none, dark violet is the scale's end and beyond. `share` is error / scale.
@@ -19,7 +19,8 @@ Color ErrorColor(double share);
 // Neighbouring bones have different hues: the golden angle round the circle of colours.
 Color BoneColor(int bone);
 
-// Where an error scale ends: a round number that holds 98 % of `errors`, and `smallest` at least.
+// Upper end of an error scale: a round number that is at least `smallest` and not below 98 % of
+// `errors`.
 double ErrorScaleEnd(std::vector<double> errors, double smallest);
 
 // Of runs in plots: distinct to the colour-blind (Okabe and Ito's set without its yellow).
@@ -32,7 +33,8 @@ inline constexpr std::array<Color, 7> kRunColors = {{{0x00, 0x72, 0xb2},
                                                      {0x33, 0x33, 0x33}}};
 inline constexpr Color kEstimateColor{0x5b, 0xa3, 0xd9};
 inline constexpr Color kTruthColor{0xe8, 0x9b, 0x3c};
-// The skin by where it looks in the rest pose: a limb that is twisted shows its back.
+// Colours of the skin that faces the front and the back in the rest pose, which make twisted limbs
+// visible.
 inline constexpr Color kFrontColor{0x8f, 0xbf, 0xe0};
 inline constexpr Color kBackColor{0xd0, 0x6a, 0x2c};
 inline constexpr Color kFailureColor{0xb0, 0x00, 0x20};

@@ -19,14 +19,14 @@ enum class Mark {
 };
 
 struct Series {
-  std::string name;       // in the legend; "": not there
+  std::string name;       // in the legend; "": no entry
   std::string runs_of{};  // the name in Figure::runs of what it shows; "": its own
   Color color{};
   double dash = 0.0;   // as Stroke::dash
   double width = 1.8;  // of lines, in units of the usual style
   Mark mark = Mark::kLine;
   std::vector<double> x, y;           // NaN: no value here, a gap
-  std::string label;                  // beside each point
+  std::string label;                  // printed beside each point
   std::vector<double> x_reach;        // where a bar to the right of each point ends; empty: no bars
   std::vector<double> failed_x;       // crosses along the top
   std::vector<double> y_low, y_high;  // ends of a band round the line; empty: no band
@@ -65,8 +65,8 @@ struct Figure {
   std::string title, caption;  // plain text
   int columns = 1;             // of panels, at most; rows follow
   std::vector<Panel> panels;
-  // What the legend's names stand for: name → ids of runs. Written beside figures of papers, and
-  // said where a pointer is on a point or line.
+  // Runs behind the legend's names: name → ids of runs. Written beside figures for papers, and
+  // shown on hover.
   std::vector<std::pair<std::string, std::vector<std::string>>> runs{};
 };
 

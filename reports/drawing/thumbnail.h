@@ -5,8 +5,8 @@
 
 namespace vitruvia {
 
-// The top of a picture at no more than `width` pixels, each the mean of those that fall into it,
-// cut off below at `aspect` times its own width.
+// The top of a picture, downscaled by averaging to at most `width` pixels in width and cropped to a
+// height of at most `aspect` times its width.
 ColorImage Thumbnail(const ColorImage& image, int width, double aspect);
 
 }  // namespace vitruvia

@@ -127,7 +127,7 @@ int AddNode(const AnimatedMesh& mesh, int mesh_index, tinygltf::Model& model) {
   return static_cast<int>(model.nodes.size()) - 1;
 }
 
-// At the time of frame i target i counts and no other does; none at that of the first.
+// At the time of frame i only target i has weight 1; at that of the first frame all weights are 0.
 int AddWeights(std::size_t frames, Arrays& arrays) {
   const std::size_t targets = frames - 1;
   std::vector<float> weights(frames * targets, 0.0f);

@@ -2,7 +2,7 @@
 //
 // Node "estimate" and, where the sequence has a true surface, node "truth": a mesh whose morph
 // targets are the frames, and an animation that shows one after the other. Metres, y up, z towards
-// the camera; the camera is at the origin. What a morph target holds is exact to single precision.
+// the camera; the camera is at the origin. Morph targets are exact to single precision.
 #pragma once
 
 #include <filesystem>

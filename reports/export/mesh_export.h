@@ -1,10 +1,10 @@
 // Surfaces of a run as files that other programs open: VTK PolyData, with the error as point data.
 //
 //   estimate_NNNNNN.vtp   the estimated surface: camera frame, metres; point data error_m (float)
-//                         and to_truth_m (3 floats: where each vertex ought to move)
-//   truth_NNNNNN.vtp      the true surface; where the sequence has none, neither it nor the errors
-//   estimate.pvd, truth.pvd   the frames in order with their times in seconds: open these in
-//   ParaView
+//                         and to_truth_m (3 floats: displacement of each vertex to the true
+//                         surface)
+//   truth_NNNNNN.vtp      the true surface; if the sequence has none, it and the errors are missing
+//   estimate.pvd, truth.pvd   the frames in order with times in seconds, to be opened in ParaView
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What figures have in common: several runs as one curve with a band, colours, names.
+// Shared parts of figures: several runs as one curve with a band, colours, names.
 #pragma once
 
 #include <string>
@@ -14,12 +14,12 @@ namespace vitruvia {
 Series MeanCurve(const std::string& name, Color color, const std::vector<double>& x,
                  const std::vector<std::vector<double>>& curves);
 
-// What a caption says about the bands.
+// Sentence of a caption that explains the bands.
 inline constexpr const char* kBandText =
     " Lines are means over a variant's seeds and repeats, bands run from the lowest to the "
     "highest.";
 
-// Notes what a name in the legend stands for.
+// Stores the runs behind a name in the legend.
 void AddRuns(const std::string& name, const std::vector<const RunRecord*>& runs, Figure& figure);
 
 // The scenes of the runs, in their order.

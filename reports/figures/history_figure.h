@@ -1,4 +1,4 @@
-// What the regression gate measured night after night, as plots.
+// Plots of the regression gate's history.
 #pragma once
 
 #include <string>

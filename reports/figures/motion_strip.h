@@ -28,9 +28,9 @@ struct StickFigureRow {
   std::vector<StickFigure> figures;
 };
 
-// Writes `stem`.png and `stem`.svg: for each row a line of front views, as seen by somebody who
-// faces the subject in its first frame, and a line of side views, in which that front is on the
-// right. The grey line is the lowest point of the row. RunError if a file cannot be written.
+// Writes `stem`.png and `stem`.svg: for each row a line of front views, seen from the front of the
+// first frame, and a line of side views, with that front on the right. The grey line marks the
+// lowest point of the row. RunError if a file cannot be written.
 void WriteMotionStrip(const std::filesystem::path& stem, const std::string& title,
                       const std::vector<StickFigureRow>& rows);
 

@@ -71,7 +71,7 @@ std::vector<SpeedPoint> PointsOf(const ReportedExperiment& experiment, const std
   return points;
 }
 
-// From point to point of the front in steps: what can be had at each price.
+// A step line through the points of the front: the least error for each time.
 Series FrontLine(std::vector<SpeedPoint> points) {
   std::erase_if(points, [](const SpeedPoint& point) { return !point.on_front; });
   std::sort(points.begin(), points.end(),
@@ -135,8 +135,8 @@ std::string CalibrationText(const ReportedExperiment& experiment) {
                                        Quantile(ms, 0.5));
 }
 
-// The scenes that have a panel each, for times of different cameras and bodies do not mix; or, of
-// one scene or of many, a single panel for all: "".
+// The scenes with separate panels, because times of different cameras and bodies are not
+// comparable; for one scene or many scenes a single panel: "".
 std::vector<std::string> PanelScenes(const ReportedExperiment& experiment) {
   constexpr std::size_t kMostPanels = 4;
   std::vector<std::string> scenes;

@@ -1,4 +1,4 @@
-// Speed against error: which variant is worth choosing.
+// Speed against error of all variants, with the Pareto front.
 #pragma once
 
 #include "analysis/experiment_runs.h"
@@ -9,11 +9,10 @@ namespace vitruvia {
 
 // One point for each variant that has runs with frames: the median time of a frame with a bar to
 // the 95th percentile, and the mean error. A panel for each of two to four scenes, else one over
-// all scenes. The front is marked: variants that no other beats in both are discs on a dashed line,
-// the others rings.
+// all scenes. Variants on the Pareto front are discs on a dashed line, the others are rings.
 Figure MakeSpeedFigure(const ReportedExperiment& experiment);
 
-// What stands for a variant's error: the first metric of Place::kSpeedPlot that some run has; the
+// The error metric of the plot: the first metric of Place::kSpeedPlot that some run has, or the
 // first of all if no run has any.
 Metric ErrorMetricOf(const ReportedExperiment& experiment);
 

@@ -11,7 +11,8 @@
 namespace vitruvia {
 namespace {
 
-// In the order of the methods; a step of one method only stands after those before it there.
+// Steps in the order of the methods; a step that only one method has follows its predecessors in
+// that method.
 std::vector<std::string> StepNames(const std::vector<Contender>& contenders) {
   std::vector<std::string> names;
   for (const Contender& contender : contenders) {

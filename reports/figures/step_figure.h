@@ -1,4 +1,4 @@
-// Where the time of a frame goes: the steps of each variant, stacked.
+// The times of each variant's steps, stacked.
 #pragma once
 
 #include <optional>

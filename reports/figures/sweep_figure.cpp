@@ -100,7 +100,7 @@ std::map<std::string, std::vector<double>> ByScene(const Runs& runs, const Metri
   return scenes;
 }
 
-// Where values stand on the axis: as they are, or, of texts, 0, 1, 2 ….
+// Positions of values on the axis: numbers at their value, texts at 0, 1, 2 ….
 class ValueAxis {
  public:
   ValueAxis(const std::vector<SweptVariant>& variants, SweepScale scale)

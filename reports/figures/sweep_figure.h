@@ -1,4 +1,4 @@
-// What a swept setting does: metrics against its values.
+// Metrics plotted against the values of a swept setting.
 #pragma once
 
 #include <vector>

@@ -9,8 +9,8 @@
 
 namespace vitruvia {
 
-// HTML: how much of each run's error each cause holds, and each run's worst events with pictures;
-// "" where no run has frames.
+// HTML: the share of each cause in each run's error, and each run's worst events with pictures; ""
+// if no run has frames.
 std::string CauseSection(const ReportedExperiment& experiment, const std::vector<RunCauses>& runs);
 
 }  // namespace vitruvia

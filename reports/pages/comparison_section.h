@@ -1,4 +1,4 @@
-// The report's tables of variants against each other.
+// The report's tables that compare variants.
 #pragma once
 
 #include <string>

@@ -35,8 +35,7 @@ std::string VerdictCell(Verdict verdict) {
 
 bool HasFrames(const RunRecord* run) { return !run->frames.empty(); }
 
-// What lacks truth and what was warned about, once for each different text: runs of one sequence
-// have it in common.
+// Missing truth and warnings, each different text once, because runs of one sequence share them.
 std::string CaveatsText(const std::vector<const RunRecord*>& runs) {
   std::string html;
   std::set<std::string> told;

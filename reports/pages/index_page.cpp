@@ -56,7 +56,7 @@ std::string OursText(const OursInAll& ours, const Metric& metric) {
   return least == most ? least : fmt::format("{} … {}", least, most);
 }
 
-// Sorted by data-value: what is met, what nobody asked for, what is missing, what is missed.
+// Sorted by data-value: targets met, no target, no result, targets missed.
 std::string VerdictOfAll(const OursInAll& ours, const Comparison& comparison) {
   const std::string& why_not = comparison.expectation.not_comparable;
   if (!why_not.empty()) {

@@ -1,4 +1,4 @@
-// What the report of an experiment and the index page share.
+// Shared parts of an experiment's report and the index page.
 #pragma once
 
 #include <filesystem>

@@ -8,7 +8,7 @@
 namespace vitruvia {
 namespace {
 
-// Pictures beyond this are left to the files in figures/, so that the page opens on a phone.
+// Pictures beyond this size are only in figures/, so that the page opens on a phone.
 constexpr std::size_t kStripBudget_bytes = 6'500'000;
 
 // A strip of so many pictures leaves room to show each as large as it is.

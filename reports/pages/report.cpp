@@ -39,7 +39,7 @@ std::string LatexFigure(const Figure& figure) {
       figure.name, LatexEscaped(figure.title), LatexEscaped(figure.caption));
 }
 
-// For whoever writes the caption: what the figure shows, and the runs behind each name in it.
+// For the author of the caption: what the figure shows, and the runs behind each name in it.
 std::string CaptionFile(const Figure& figure) {
   std::string text = figure.title + "\n\n" + figure.caption + "\n";
   for (const auto& [name, ids] : figure.runs)

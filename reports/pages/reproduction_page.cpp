@@ -42,7 +42,7 @@ std::string VerdictHtml(ClaimVerdict verdict, const std::string& reason) {
                      reason.empty() ? "" : ": " + Escaped(reason));
 }
 
-// What stands for the verdict of a figure: of one without a claim only what is missing.
+// Verdict of a figure; for a figure without a claim, only what is missing.
 std::string OutcomeHtml(const ReproducedFigure& figure, const ClaimDecision& decision) {
   if (!figure.claim.empty()) return VerdictHtml(decision.verdict, decision.reason);
   return decision.reason.empty()

@@ -1,4 +1,4 @@
-// The page of reproduced figures: in the papers' order what is shown, published and ours, and the
+// The page of reproduced figures, in the papers' order: published and measured results, and the
 // verdict on each claim.
 #pragma once
 
@@ -10,9 +10,8 @@
 
 namespace vitruvia {
 
-// Draws the figures' pictures, plots and tables from their records and writes one page that needs
-// nothing but itself. The plots are also written as PNG and SVG to a folder of the page's name
-// beside it.
+// Draws the figures' pictures, plots and tables from their records and writes one self-contained
+// page. The plots are also written as PNG and SVG to a folder of the page's name beside it.
 void WriteReproductionPage(const ReproductionList& list, const std::vector<FigureRecords>& figures,
                            const std::filesystem::path& page);
 

@@ -53,7 +53,7 @@ void Explain(const SequenceReader& sequence, const std::vector<FrameEvidence>& e
     run.diagnosis = Diagnose(evidence, estimate);
     for (const ErrorEvent& event : run.diagnosis.events)
       run.pictures.push_back(DrawEvent(sequence, estimate, event.worst, view));
-  } catch (const DataError& error) {  // a report can do without, but must say so
+  } catch (const DataError& error) {  // the report is written without them and states the reason
     run.problem = error.what();
     run.pictures.clear();
   }

@@ -1,4 +1,4 @@
-// What went wrong in each run and why, with pictures of the worst events.
+// The causes of each run's errors, with pictures of the worst events.
 #pragma once
 
 #include <string>
@@ -14,14 +14,14 @@ inline constexpr int kEventPictureSize = 120;  // pixels, width and height
 
 struct RunCauses {
   std::string run_id;
-  std::string problem;  // why nothing is known; "" when all is well
+  std::string problem;  // why there is no diagnosis; "" if there is one
   Diagnosis diagnosis;
   std::vector<Picture> pictures;  // of each event's worst frame: truth and estimate as the camera
                                   // sees them
 };
 
-// One entry per finished tracking run. What a sequence says is gathered once for all its runs;
-// sequences go on all cores.
+// One entry per finished tracking run. A sequence's evidence is gathered once for all its runs;
+// sequences are processed on all cores.
 std::vector<RunCauses> FindCauses(const ReportedExperiment& experiment);
 
 }  // namespace vitruvia

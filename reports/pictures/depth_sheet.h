@@ -1,4 +1,4 @@
-// Depth images of several frames on one sheet: a scene at a glance.
+// A contact sheet of depth images of several frames.
 #pragma once
 
 #include <filesystem>

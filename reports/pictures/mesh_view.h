@@ -21,7 +21,7 @@ struct PictureWindow {
   double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
 };
 
-// Draws by the processor. Light and colour are computed at vertices and interpolated in the image.
+// A software renderer. Shading and colour are computed at vertices and interpolated in the image.
 // Each pixel is the mean of four samples. A view keeps its buffers from picture to picture; each
 // thread has a view of its own.
 class MeshView {
@@ -29,7 +29,7 @@ class MeshView {
   MeshView(int width, int height);  // of the pictures, pixels
 
   // The meshes as the camera sees them in `part`, both sides of each triangle, transparent where
-  // nothing is. Triangles nearer than 0.1 m are left out.
+  // there is no surface. Triangles nearer than 0.1 m are left out.
   ColorImage Draw(const PinholeCamera& camera, const PictureWindow& part,
                   const std::vector<ShadedMesh>& meshes);
 

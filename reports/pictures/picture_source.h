@@ -1,4 +1,4 @@
-// What pictures of a tracking run are drawn from: its stored sequence and estimate.
+// The source of a tracking run's pictures: its stored sequence and estimate.
 #pragma once
 
 #include <memory>
@@ -20,8 +20,8 @@ struct PictureFrame {
   std::vector<bool> in_view;  // whether the camera has it in its image
 };
 
-// The frames that pictures are taken of, of a run of that length: those asked for that it has, or,
-// where none are asked for, four from the first to the last.
+// The frames to draw for a run of `count` frames: the existing ones of `asked`, or, if `asked` is
+// empty, four from the first to the last.
 std::vector<int> FramesToShow(const std::vector<int>& asked, int count);
 
 class PictureSource {
@@ -41,8 +41,8 @@ class PictureSource {
   std::vector<PictureFrame> frames_;
 };
 
-// Null, and the reason in `problem`, where stored data is gone or damaged: a report can do without
-// its pictures, but must say so.
+// Null, with the reason in `problem`, if stored data is missing or damaged: the report is then
+// written without pictures and states the reason.
 std::unique_ptr<PictureSource> OpenPictureSource(const ReportedExperiment& experiment,
                                                  const RunRecord& run, std::string& problem);
 

@@ -32,8 +32,8 @@ constexpr double kMargin = 1.12;            // of a picture over the body in it
 constexpr double kOverlayOpacity = 0.72;    // of the reconstruction over the depth image
 constexpr double kSmallestErrorScale_m = 0.01;
 
-// Of what the camera has in its image: a limb out of view may be anywhere, and would leave no
-// colours for the rest.
+// Errors of the vertices in view: those of a limb out of view may be arbitrarily large and would
+// dominate the colour scale.
 std::vector<double> ErrorsInView(const PictureSource& source) {
   std::vector<double> errors_m;
   for (const PictureFrame& frame : source.frames()) {
@@ -44,7 +44,7 @@ std::vector<double> ErrorsInView(const PictureSource& source) {
   return errors_m;
 }
 
-// The end of the middle run's own scale: a run that went astray must not leave the others pale.
+// The median of the runs' scales, so that a diverged run does not make the others pale.
 double ErrorScale(const std::vector<std::unique_ptr<PictureSource>>& sources) {
   std::vector<double> ends_m;
   for (const auto& source : sources) {

@@ -1,4 +1,4 @@
-// Picture strips: what the camera saw, what the tracker made of it, and how far that is off.
+// Picture strips: the observed depth, the estimate, and its error.
 #pragma once
 
 #include <filesystem>
@@ -32,7 +32,7 @@ struct ColorKey {
 
 struct RunPictures {
   std::string run_id;
-  std::string problem;                       // why there are none; "" when all is well
+  std::string problem;                       // why there are none; "" if there are pictures
   std::vector<std::string> titles;           // of a strip's pictures
   double nearest_m = 0.0, farthest_m = 0.0;  // ends of the depth colours; both 0: no depth shown
   double error_scale_m = 0.0;                // end of the error colours; 0: no errors shown
@@ -44,14 +44,14 @@ struct RunPictures {
 const std::vector<std::string>& PictureTitles();
 std::vector<std::string> PictureTitlesWithoutTruth();
 
-// What is done with a run's pictures as soon as they are drawn, on the thread that drew them.
+// Callback for a run's pictures as soon as they are drawn, on the thread that drew them.
 using PictureUse = std::function<void(RunPictures&)>;
 
 // One entry per finished run: at the experiment's picture frames that the run has, or, of a run
 // that left surfaces instead of frames (records/surface_strips.h), those. The error of a vertex is
-// its distance to the true point that it stands for, which is the closest one in the rest pose that
-// both surfaces share. All runs share one scale of errors, so that their colours compare. Runs are
-// drawn on all cores.
+// its distance to the corresponding true point, which is the closest one in the common rest pose.
+// All runs share one error scale, so that their colours are comparable. Runs are drawn on all
+// cores.
 std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment,
                                       const PictureUse& use = {});
 

@@ -184,7 +184,7 @@ RunPictures Painted(const ReportedExperiment& experiment, const RunsOfSequence& 
       const EstimateReader estimate(experiment.folder / named.run->run_id / "estimate");
       pictures.strips.push_back(painter.Of(named, estimate));
     }
-  } catch (const DataError& error) {  // a report can do without, but must say so
+  } catch (const DataError& error) {  // the report is written without them and states the reason
     pictures.strips.clear();
     pictures.problem = error.what();
   }

@@ -1,5 +1,5 @@
-// Runs of one sequence below each other, frame by frame: what differs between variants, and what
-// changes from frame to frame.
+// Runs of one sequence below each other, frame by frame, for comparing variants and consecutive
+// frames.
 #pragma once
 
 #include "reports/pictures/pictures.h"

@@ -1,4 +1,4 @@
-// Pictures of the surfaces that a run without frames left behind.
+// Pictures of the surfaces that a run without frames stored.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,8 @@ namespace vitruvia {
 
 // Fills titles, strips and the error scale of `run`.
 void DrawSurfaceStrips(const std::vector<SurfaceStrip>& strips, MeshView& view, RunPictures& run);
-// Of the strips that a run left; its problem where it left none or files are damaged.
+// The same for a run's stored strips; sets the run's problem if there are none or files are
+// damaged.
 void DrawSurfaceStrips(const std::filesystem::path& run_folder, MeshView& view, RunPictures& run);
 
 }  // namespace vitruvia

@@ -30,8 +30,8 @@ bool AreOfOneSequence(const RunRecord& a, const RunRecord& b) {
   return a.scene == b.scene && a.seed == b.seed && RepeatOf(a) == RepeatOf(b);
 }
 
-// Of several partners the one of the same method, or else of the same variant; null if there is
-// none or if it is not clear which.
+// The partner of a run; of several candidates, the one with the same method, or else the same
+// variant. Null if there is none or if the choice is ambiguous.
 const RunRecord* PartnerOf(const RunRecord& run, const RunList& candidates) {
   RunList partners;
   for (const RunRecord* candidate : candidates) {
@@ -186,16 +186,15 @@ std::string PairProblem(const ClaimTest& test, const char* relation) {
 
 void ClaimTest::Describe(Fields& f) {
   f.Text("metric", metric, {.meaning = "key of a metric (vitruvia explain)", .required = true});
-  f.Choice(
-      "relation", relation,
-      {{"bound", ClaimRelation::kBound},
-       {"better", ClaimRelation::kBetter},
-       {"alike", ClaimRelation::kAlike}},
-      {.meaning = "what decides: the mean over the runs keeps a bound; or, over pairs of runs, "
-                  "the one contender is better than the other; or the two differ by no more "
-                  "than a margin"});
+  f.Choice("relation", relation,
+           {{"bound", ClaimRelation::kBound},
+            {"better", ClaimRelation::kBetter},
+            {"alike", ClaimRelation::kAlike}},
+           {.meaning = "condition of the test: the mean over the runs is within a bound; or, over "
+                       "pairs of runs, one contender is better than the other; or the two differ "
+                       "by no more than a margin"});
   f.Text("of", of,
-         {.meaning = "whose runs are tested: pattern (* ? [abc]) of \"method/variant\"",
+         {.meaning = "contender whose runs are tested: pattern (* ? [abc]) of \"method/variant\"",
           .required = true});
   f.Text("against", against,
          {.meaning = "the contender that pairs are made with: pattern of \"method/variant\""});
@@ -203,13 +202,12 @@ void ClaimTest::Describe(Fields& f) {
           {.meaning = "patterns of the scenes that the test is about; all if empty"});
   f.Number("at_most", at_most, {.meaning = "upper bound of the mean over the runs"});
   f.Number("at_least", at_least, {.meaning = "lower bound of the mean over the runs"});
-  f.Number(
-      "margin", margin,
-      {.meaning = "largest difference between two contenders that are called alike", .min = 0.0});
+  f.Number("margin", margin,
+           {.meaning = "largest difference at which two contenders count as equal", .min = 0.0});
   f.Number("paper", paper, {.meaning = "value of the metric that the paper prints"});
   f.Text("remark", remark,
-         {.meaning = "where a bound or margin that the paper does not print "
-                     "comes from, and how the test differs from the paper's"});
+         {.meaning = "origin of a bound or margin that the paper does not print, and differences "
+                     "from the paper's test"});
 }
 
 std::string ClaimTest::Problem() const {

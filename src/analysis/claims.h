@@ -1,4 +1,4 @@
-// A paper's claims, decided by run records.
+// Tests of a paper's claims on run records.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace vitruvia {
 
-// How the records are held against a claim.
+// How a claim is tested on the records.
 enum class ClaimRelation {
-  kBound,   // the mean of the metric over the runs keeps a bound
-  kBetter,  // the one contender is better than the other, over pairs of runs
+  kBound,   // the mean of the metric over the runs is within a bound
+  kBetter,  // one contender is better than the other, over pairs of runs
   kAlike,   // the two differ by no more than a margin, over pairs of runs
 };
 
@@ -38,10 +38,10 @@ struct ClaimFinding {
   std::string reason;  // why it cannot be tested; "" if it can
 };
 
-// Over the finished runs of all these experiments. A pair shares experiment, scene, seed and
-// repeat; where several runs of `against` do, the one of the same method or else of the same
-// variant. A difference counts only if its interval says so (paired_comparison.h), so fewer pairs
-// than FewestPairs test nothing.
+// Uses the finished runs of all these experiments. The runs of a pair share experiment, scene, seed
+// and repeat; if several runs of `against` match, the one with the same method, or else the same
+// variant, is taken. A difference counts only if it is significant (paired_comparison.h), so with
+// fewer pairs than FewestPairs the claim cannot be tested.
 ClaimFinding Decide(const ClaimTest& test, const std::vector<ReportedExperiment>& experiments);
 
 struct ClaimDecision {
@@ -49,8 +49,8 @@ struct ClaimDecision {
   std::string reason;  // why it cannot be tested; "" if it can
   std::vector<ClaimFinding> findings;
 };
-// A claim holds if all of its tests hold, and does not if one does not. Without tests, and where a
-// test has no records to go by, it cannot be tested.
+// A claim holds if all of its tests hold, and does not hold if one of them does not. It cannot be
+// tested without tests, or if a test has no records.
 ClaimDecision Decide(const std::vector<ClaimTest>& tests,
                      const std::vector<ReportedExperiment>& experiments);
 

@@ -10,13 +10,13 @@
 
 namespace vitruvia {
 
-// Who tracked: "method/variant".
+// The contender that produced the run: "method/variant".
 std::string ContenderOf(const RunRecord& run);
 
 struct ReportedRun {
   std::string run_id;
   std::optional<RunRecord> record;
-  std::string problem;  // why there is no record; "" where there is one
+  std::string problem;  // why there is no record; "" if there is one
 };
 
 struct ReportedExperiment {
@@ -27,8 +27,8 @@ struct ReportedExperiment {
   std::vector<const RunRecord*> finished() const;
 };
 
-// A run that failed, is missing, has a damaged record or a metric that the catalogue does not know
-// is there with its problem. DataError if the folder holds no experiment.
+// A run that failed, is missing, or has a damaged record or an unknown metric is included with its
+// problem. DataError if the folder holds no experiment.
 ReportedExperiment ReadExperiment(const std::filesystem::path& folder);
 
 }  // namespace vitruvia

@@ -11,12 +11,13 @@ namespace vitruvia {
 
 struct FigureRecords {
   ReproducedFigure figure;
-  std::vector<ReportedExperiment> experiments;  // of each the runs that the figure is made from
+  std::vector<ReportedExperiment> experiments;  // each with only the runs used for the figure
   std::vector<std::string> problems;            // of experiments that could not be planned
 };
 
-// The figure's verdict. A run that failed or is missing is not left out of a mean: with one the
-// claim cannot be tested. Of a figure without a claim only the reason counts: what is missing.
+// The figure's verdict. If a run failed or is missing, the claim cannot be tested; means over the
+// remaining runs are not used. For a figure without a claim, only `reason` is set: it names what is
+// missing.
 ClaimDecision DecideFigure(const FigureRecords& records);
 
 // Only the runs of the method and variant and of the scenes that match.
@@ -27,9 +28,9 @@ ReportedExperiment RunsThatMatch(const ReportedExperiment& experiment, const std
 struct TableRow {
   std::string name;  // "method/variant" or "method"
   int runs = 0;
-  std::vector<double> means;  // in the order of the table's metrics; NaN where no run has one
+  std::vector<double> means;  // in the order of the table's metrics; NaN if no run has the metric
 };
-// In the order of the grids, over all the experiments together.
+// Rows in the order of the grids, over all experiments together.
 std::vector<TableRow> Tabulate(const ShownTable& table,
                                const std::vector<ReportedExperiment>& experiments);
 

@@ -9,7 +9,8 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
-// Until version 1 runs held times as multiples of a kernel's, which do not compare across machines.
+// Up to version 1, runs held times as multiples of the calibration kernel's time, which are not
+// comparable across machines.
 void RemoveCalibratedTimes(Json& file) {
   if (!file.is_object() || !file.contains("runs") || !file["runs"].is_array()) return;
   for (Json& run : file["runs"]) {

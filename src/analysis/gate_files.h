@@ -21,18 +21,19 @@ struct GateBaseline {
                                         "take a baseline anew: --update --reason TEXT"};
 
   std::string date, commit, cpu;  // of the last renewal
-  std::vector<Renewal> renewals;  // all of them, the first one first
+  std::vector<Renewal> renewals;  // all renewals, oldest first
   std::vector<GatedRun> runs;
 
   void Describe(Fields& fields);
   static void Upgrade(Json& file, int version);
 };
 
-// ConfigError if the file is missing, saying how a baseline is taken; DataError if it is damaged.
+// ConfigError with instructions to take a baseline if the file is missing; DataError if it is
+// damaged.
 GateBaseline ReadBaseline(const std::filesystem::path& file);
 void WriteBaseline(const std::filesystem::path& file, const GateBaseline& baseline);
 
-// What the gate found on one occasion.
+// Result of one run of the gate.
 struct HistoryEntry {
   std::string date, commit, cpu;
   int exit_code = 0;
@@ -41,7 +42,7 @@ struct HistoryEntry {
   void Describe(Fields& fields);
 };
 
-// Oldest first; empty where there is no file. DataError if it is damaged.
+// Oldest first; empty if there is no file. DataError if it is damaged.
 std::vector<HistoryEntry> ReadHistory(const std::filesystem::path& file);
 void WriteHistory(const std::filesystem::path& file, const std::vector<HistoryEntry>& history);
 

@@ -12,7 +12,7 @@
 namespace vitruvia {
 namespace {
 
-// A number with as many digits as make a difference visible.
+// A number with enough digits to show a difference.
 std::string Digits(double value) { return fmt::format("{:.6g}", value); }
 
 // Of speed with the interval of the ratio, which decides.
@@ -26,7 +26,7 @@ std::string ChangeInPercent(const GateFinding& finding) {
   return fmt::format("{:+.1f} %", 1e2 * (finding.is - finding.was) / std::abs(finding.was));
 }
 
-// The values of a finding in the unit that people read.
+// The values of a finding in printed units.
 struct PrintedFinding {
   std::string was, is, limit, unit;
 };

@@ -1,4 +1,4 @@
-// What the regression gate found, for programs and for people.
+// Reports of the regression gate, for programs and for users.
 #pragma once
 
 #include <map>
@@ -9,7 +9,7 @@
 
 namespace vitruvia {
 
-// What a report says beside the findings.
+// Content of a report other than the findings.
 struct GateOccasion {
   std::string name, date, commit, cpu;
   GateTolerances tolerances;

@@ -104,15 +104,14 @@ void GatedRun::Describe(Fields& f) {
   f.Text("scene", scene, {.meaning = "name of the scene"});
   f.Text("method", method, {.meaning = "name of the method"});
   f.Integer("seed", seed, {.meaning = "seed of all random streams of the run"});
-  f.Integer("repeats", repeats, {.meaning = "how often the run was repeated"});
+  f.Integer("repeats", repeats, {.meaning = "number of repeats of the run"});
   f.Map("accuracy", accuracy, {.meaning = "metric → its value in the first repeat"});
   f.Texts("unsteady", unsteady, {.meaning = "metrics that differ between the repeats"});
-  f.Map(
-      "times_ms", times_ms,
-      {.meaning = "what was timed → its median time per frame in each repeat; compares with times "
-                  "of the same sitting only",
-       .unit = "ms",
-       .optional = true});
+  f.Map("times_ms", times_ms,
+        {.meaning = "name of a time → its median per frame in each repeat; comparable only with "
+                    "times of the same session",
+         .unit = "ms",
+         .optional = true});
   f.Text("config_hash", config_hash,
          {.meaning = "hash of the run's resolved settings", .optional = true});
   f.Map("settings", settings,

@@ -1,4 +1,4 @@
-// What the regression gate holds against its baseline: the numbers of one run over its repeats.
+// The numbers of one run, over its repeats, that the regression gate compares with its baseline.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace vitruvia {
 
-// What is timed as a whole, beside the steps of a frame: the name that a GatedRun keeps its speed
-// under, and the metric that it is taken from. A run has one of them; the first is the main one.
+// Total times, as opposed to times of a frame's steps: the name of the time in GatedRun, and the
+// metric that it is read from. A run has one of them; the first is the main one.
 inline constexpr const char* kWholeFrame = "frame";
 struct WholeTime {
   const char* name;
@@ -22,21 +22,21 @@ struct WholeTime {
 inline constexpr std::array kWholeTimes = {WholeTime{kWholeFrame, "frame_ms_median"},
                                            WholeTime{"fit", "fit_ms"}};
 
-// Named without the hash of its config, since a changed default must be seen as a change, not as
-// another run.
+// Its name does not contain the hash of its config, so that a changed default is reported as a
+// change and not as a different run.
 struct GatedRun {
   std::string experiment, variant, scene, method;
   int seed = 0;
   int repeats = 0;
-  // By key of the metrics of Place::kGate, of the first repeat: the same in all repeats, or
-  // `unsteady` names those that are not.
+  // Values of the metrics of Place::kGate in the first repeat, by key. `unsteady` names metrics
+  // that differ between repeats.
   std::map<std::string, double> accuracy;
   std::vector<std::string> unsteady;
-  // By name of what was timed (kWholeTimes or a step): its median time per frame in each repeat,
-  // ms. Compares with times of the same sitting on the same machine only.
+  // Median time per frame in each repeat, ms, by name of a total time (kWholeTimes) or a step.
+  // Comparable only with times of the same session on the same machine.
   std::map<std::string, std::vector<double>> times_ms;
-  // Of the resolved config: a hash, and by dotted key each setting as JSON. "" and none in files of
-  // older programs; only a baseline stores the settings themselves.
+  // Hash of the resolved config, and its settings as JSON by dotted key. Empty in files of older
+  // programs; only a baseline stores the settings.
   std::string config_hash{};
   std::map<std::string, std::string> settings{};
 
@@ -44,12 +44,12 @@ struct GatedRun {
   std::string name() const;  // "experiment: variant.scene.method.s1"
 };
 
-// Of the records of the same run, one for each repeat, at least one. What was not timed in every
-// repeat has no times.
+// From the records of the same run, one for each repeat (at least one). A time that is missing in a
+// repeat is left out.
 GatedRun MakeGatedRun(const std::string& experiment, std::span<const RunRecord> repeats);
 
-// "fit.pair_cutoff_m: 0.08 → 0.1" of each setting that differs, in the order of the keys; one
-// sentence where a side does not know its settings.
+// "fit.pair_cutoff_m: 0.08 → 0.1" for each setting that differs, in the order of the keys; a single
+// sentence if the settings of one run are not known.
 std::vector<std::string> ChangedSettings(const GatedRun& was, const GatedRun& is);
 
 // The run of that name; nullptr if there is none.

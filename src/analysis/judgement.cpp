@@ -9,13 +9,13 @@
 namespace vitruvia {
 namespace {
 
-// Of numbers that are 0 but for their rounding.
+// Lower bound of accuracy values, for numbers that are 0 up to rounding.
 constexpr double kSmallestAccuracy = 1e-12;
 
-// Two values on one scale: what is too high to pass, or too low.
+// Bounds of a number that passes without improvement.
 struct Limits {
-  double worst = 0.0;  // that passes
-  double best = 0.0;   // that is no improvement yet
+  double worst = 0.0;  // that still passes
+  double best = 0.0;   // the best value that is not yet an improvement
 };
 
 Limits AccuracyLimits(const std::string& metric, double was, double tolerance) {
@@ -35,8 +35,8 @@ Change ChangeOf(double is, const Limits& limits) {
   return Change::kWithin;
 }
 
-// The value of a metric of the run on an earlier occasion; NaN if it was not measured then, or with
-// other settings.
+// The value of the run's metric in a history entry; NaN if it was not measured, or with different
+// settings.
 double ValueThen(const HistoryEntry& entry, const GatedRun& is, const std::string& metric) {
   const GatedRun* run = FindRun(entry.runs, is.name());
   if (run == nullptr || run->config_hash != is.config_hash) return NAN;
@@ -44,7 +44,7 @@ double ValueThen(const HistoryEntry& entry, const GatedRun& is, const std::strin
   return found == run->accuracy.end() ? NAN : found->second;
 }
 
-// Back from the newest entry as long as the number was bad there too.
+// Goes back from the newest entry as long as the number was bad there too.
 Blame BlameFor(const GatedRun& is, const std::string& metric, const Limits& limits,
                const std::vector<HistoryEntry>& history, const std::string& commit,
                const std::string& baseline_commit) {
@@ -70,15 +70,14 @@ Interval RatioInterval(const std::vector<double>& was_ms, const std::vector<doub
   return MedianInterval(ratios, confidence);
 }
 
-// A ratio may be as much above one as the tolerance says, and the same the other way is an
-// improvement.
+// A ratio up to 1 + tolerance passes; its inverse is the limit of an improvement.
 Change ChangeOf(const Interval& ratio, double tolerance) {
   if (ratio.low > 1.0 + tolerance) return Change::kRegressed;
   if (ratio.high < 1.0 / (1.0 + tolerance)) return Change::kImproved;
   return Change::kWithin;
 }
 
-// Steps that take little of a frame are mostly the clock's noise.
+// Times of steps that are a small share of a frame are mostly noise.
 bool IsGated(const std::string& name, const GatedRun& was, const GateTolerances& tolerances) {
   const auto frame = was.times_ms.find(kWholeFrame);
   if (frame == was.times_ms.end() || name == kWholeFrame) return true;
@@ -184,30 +183,31 @@ std::string WhySpeedIsNotJudged(const MeasuredRuns& measured, const SpeedReferen
 
 void GateTolerances::Describe(Fields& f) {
   f.Number("accuracy", accuracy,
-           {.meaning = "by how much of itself an error may grow, or a share of joints found fall: "
-                       "runs are deterministic, so this allows for other orders of summation only",
+           {.meaning =
+                "relative tolerance by which an error may grow, or a share of found joints fall; "
+                "runs are deterministic, so it only has to allow for different orders of summation",
             .min = 0.0,
             .max = 1.0,
             .origin = Origin::kGuessed});
   f.Number("frame_time", frame_time,
-           {.meaning = "by how much of itself the time of a frame may grow",
+           {.meaning = "relative tolerance by which the time of a frame may grow",
             .min = 0.0,
             .max = 10.0,
             .origin = Origin::kGuessed});
   f.Number("step_time", step_time,
-           {.meaning = "by how much of itself the time of a step may grow",
+           {.meaning = "relative tolerance by which the time of a step may grow",
             .min = 0.0,
             .max = 10.0,
             .origin = Origin::kGuessed});
   f.Number("gated_step_share", gated_step_share,
-           {.meaning = "the share of a frame's time from which a step is gated on its own: shorter "
-                       "ones are mostly the clock's noise",
+           {.meaning = "least share of a frame's time for a step to be gated separately; times of "
+                       "shorter steps are mostly noise",
             .min = 0.0,
             .max = 1.0,
             .origin = Origin::kGuessed});
   f.Number("confidence", confidence,
-           {.meaning = "confidence of the interval of a time's ratio, which must lie outside the "
-                       "tolerance for a change to be called",
+           {.meaning = "confidence level of the interval of a time's ratio; a change is "
+                       "significant if the interval lies outside the tolerance",
             .min = 0.5,
             .max = 0.999,
             .origin = Origin::kGuessed});

@@ -29,11 +29,11 @@ const char* Name(NumberKind kind);
 enum class Change { kWithin, kImproved, kRegressed };
 const char* Name(Change change);
 
-// Where in the history a regression of accuracy came in. Times of other occasions say nothing, nor
-// do occasions and baselines whose settings were others.
+// The commits between which a regression of accuracy appeared. Times of other sessions, and history
+// entries and baselines with different settings, are not used.
 struct Blame {
-  // Commits. The last good one is the baseline's where the history says nothing. Both "" where the
-  // settings differ from the baseline's: the commit need not be to blame.
+  // Commits. The last good one is the baseline's if the history has none. Both are "" if the
+  // settings differ from the baseline's, because then the code need not be the cause.
   std::string last_good, first_bad;
 };
 
@@ -41,48 +41,49 @@ struct GateFinding {
   std::string run;  // GatedRun::name()
   NumberKind kind = NumberKind::kAccuracy;
   std::string metric;
-  // Of accuracy the baseline's value and the measured one; of speed the medians over the repeats of
-  // the baseline's program and of the measured one, ms.
+  // Accuracy: the baseline's value and the measured one. Speed: the medians over the repeats of the
+  // baseline's program and of the measured program, ms.
   double was = 0.0, is = 0.0;
   double limit = 0.0;  // the worst value that would have passed
-  // Of speed: interval of the median of is / was over the pairs of repeats. NaN of accuracy.
+  // Speed: confidence interval of the median of is / was over the pairs of repeats. Accuracy: NaN.
   Interval ratio = {kAbsent, kAbsent};
   Change change = Change::kWithin;
   Blame blame;  // of regressions
 };
 
 struct Judgement {
-  std::vector<GateFinding> findings;            // every number that was held against the baseline
-  std::map<std::string, std::string> failures;  // run → what went wrong; unsteady numbers too
+  std::vector<GateFinding> findings;            // every number that was compared with the baseline
+  std::map<std::string, std::string> failures;  // run → problem, including unsteady numbers
   std::vector<std::string> unknown;             // measured, but not in the baseline
-  std::vector<std::string> unmeasured;          // runs or numbers of the baseline that are no more
-  // Run → what differs between the baseline's settings and its own (ChangedSettings).
+  std::vector<std::string> unmeasured;          // runs or numbers of the baseline that were not
+                                                // measured
+  // Run → differences between the baseline's settings and its own (ChangedSettings).
   std::map<std::string, std::vector<std::string>> changed_settings;
-  std::string speed_not_judged;  // "" or why no time was compared
+  std::string speed_not_judged;  // "" or the reason why no time was compared
 
   std::vector<const GateFinding*> OfChange(Change change) const;
   std::vector<const GateFinding*> Regressions(NumberKind kind) const;
-  // The code of the worst that happened: a failed run, then nothing measured (or less than the
-  // baseline holds), then accuracy, then speed.
+  // The exit code of the most severe outcome: first a failed run, then missing measurements, then
+  // accuracy, then speed.
   ExitCode Code() const;
 };
 
 struct MeasuredRuns {
   std::vector<GatedRun> runs;
-  std::map<std::string, std::string> failures;  // by a name that people can find the run under
+  std::map<std::string, std::string> failures;  // by a name that identifies the run to the user
 };
 
-// The same runs carried out by the baseline's program on the same machine in the same sitting: its
-// k-th repeat ran next to the k-th repeat of the measured program.
+// The same runs by the baseline's program on the same machine in the same session: its k-th repeat
+// ran next to the k-th repeat of the measured program.
 struct SpeedReference {
   std::vector<GatedRun> runs;
   std::string commit;   // of that program
   std::string problem;  // "" or why there are no runs
 };
 
-// Accuracy is held against the baseline, and speed against the reference: a time has changed only
-// if the interval of the median ratio of its pairs lies outside the tolerance. The history is what
-// was found before, oldest first; `commit` is that of the measured build.
+// Compares accuracy with the baseline, and speed with the reference: a time has changed only if the
+// interval of the median ratio of its pairs lies outside the tolerance. `history`: earlier results,
+// oldest first; `commit`: that of the measured build.
 Judgement Judge(const GateBaseline& baseline, const MeasuredRuns& measured,
                 const SpeedReference& reference, const GateTolerances& tolerances,
                 const std::vector<HistoryEntry>& history, const std::string& commit);

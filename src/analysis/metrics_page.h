@@ -1,4 +1,4 @@
-// docs/metrics.md: all metrics of the catalogue for people who read or write papers.
+// Generates docs/metrics.md: all metrics of the catalogue, for readers and authors of papers.
 #pragma once
 
 #include <string>

@@ -15,7 +15,7 @@
 namespace vitruvia {
 namespace {
 
-// The share of resampled means to cut off at either end.
+// The share of resampled means to cut off at each end.
 double ExpandedTail(double confidence, std::size_t count) {
   const double n = static_cast<double>(count);
   const double t = StudentQuantile(confidence, static_cast<int>(count) - 1);
@@ -51,7 +51,7 @@ double MeanOfDrawnGroups(const Groups& groups, RandomStream& random) {
   return sum / static_cast<double>(count);
 }
 
-// Cut off so far outside that the interval is as wide as Student's of that many units.
+// Percentile interval, expanded to the width of Student's interval for that many units.
 Interval ExpandedInterval(const std::vector<double>& means, std::size_t units, double confidence) {
   const double tail = ExpandedTail(confidence, units);
   return {Quantile(means, tail), Quantile(means, 1.0 - tail)};
@@ -70,7 +70,7 @@ std::vector<double> Units(const Groups& groups) {
   return means;
 }
 
-// Of Student's test of the mean against 0, two-sided.
+// p-value of Student's two-sided test of the mean against 0.
 double PValue(const SampleSpread& spread) {
   if (spread.count < 2 || spread.mean == 0.0) return 1.0;
   if (spread.deviation == 0.0) return 0.0;
@@ -117,7 +117,7 @@ Interval BootstrapMeanInterval(std::span<const double> values, const BootstrapSe
   if (values.size() == 1) {
     return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   }
-  // Rounding of a mean must not make a difference of differences that are all the same.
+  // If all differences are equal, rounding of their mean must not create a spread.
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   if (*least == *most) return {*least, *most};
   const std::vector<double> means = ResampledMeans(settings, [&](RandomStream& random) {

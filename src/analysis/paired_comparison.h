@@ -1,4 +1,4 @@
-// What repeats and seeds say: spread, and whether two paired samples differ.
+// Statistics over repeats and seeds: spread, and tests whether two paired samples differ.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@ namespace vitruvia {
 
 struct SampleSpread {
   int count = 0;
-  double mean = std::numeric_limits<double>::quiet_NaN();  // NaN of an empty sample
-  double deviation =
-      std::numeric_limits<double>::quiet_NaN();  // n − 1 below; NaN of fewer than two
+  double mean = std::numeric_limits<double>::quiet_NaN();       // NaN for an empty sample
+  double deviation = std::numeric_limits<double>::quiet_NaN();  // with divisor n − 1; NaN for fewer
+                                                                // than two values
 };
 SampleSpread SpreadOf(std::span<const double> values);
 
@@ -29,30 +29,31 @@ struct Interval {
   double low = 0.0, high = 0.0;
 };
 
-// Of the mean of what the values were drawn from: the percentile bootstrap, its percentiles moved
-// outwards so that it is as wide as Student's interval where values are normal (Hesterberg 2015,
-// "What Teachers Should Know About the Bootstrap", the expanded percentile interval). Without that
-// it is too narrow for the six or ten values that an experiment has; of six normal ones it still
-// holds the mean in 93 % of all cases, where it says 95, of nine in 94 to 95. One value: [−∞, ∞].
-// std::invalid_argument on an empty sample or settings out of range.
+// Confidence interval of the mean of the values' distribution, by the expanded percentile bootstrap
+// (Hesterberg 2015, "What Teachers Should Know About the Bootstrap"): the percentiles are moved
+// outwards so that the interval is as wide as Student's for normal values. The plain percentile
+// interval is too narrow for the six to ten values of an experiment. At 95 % nominal, this one
+// covers the mean of normal values in 93 % of all cases with six values, and in 94 to 95 % with
+// nine. One value: [−∞, ∞]. std::invalid_argument for an empty sample or settings out of range.
 Interval BootstrapMeanInterval(std::span<const double> values, const BootstrapSettings& settings);
 
 // Values in groups that are independent of each other: one for each scene, of its seeds.
 using Groups = std::vector<std::vector<double>>;
 
-// Of the mean of what the groups were drawn from: groups are drawn anew, then values within each.
-// As wide as Student's interval of that many groups (see above). Of a single group, that of its
-// values. std::invalid_argument if a group is empty or there is none.
+// Confidence interval of the mean of the groups' distribution: groups are resampled, then values
+// within each. It is expanded to the width of Student's interval for that many groups (see above).
+// For a single group, the interval of its values. std::invalid_argument if there is no group or a
+// group is empty.
 Interval GroupedMeanInterval(const Groups& groups, const BootstrapSettings& settings);
 
-// Of the median of what the values were drawn from, whatever their distribution: the sign test's
-// interval, from an order statistic to its mirror image, the narrowest that holds the median with
-// at least this probability. One value far off does not move it. [−∞, ∞] of fewer values than
-// FewestPairs(confidence).
+// Distribution-free confidence interval of the median, from the sign test: the narrowest interval
+// between the k-th smallest and the k-th largest value that contains the median with at least this
+// probability. Robust to single outliers. [−∞, ∞] for fewer values than FewestPairs(confidence).
 Interval MedianInterval(std::span<const double> values, double confidence);
 
-// With fewer pairs than this even differences that all have one sign arise by chance more often
-// than in 1 − confidence of all cases (a sign test's 2^(1 − n)), so none is called one: 6 at 95 %.
+// The least number of pairs for which differences can be significant: with fewer, even differences
+// of the same sign arise by chance with a probability above 1 − confidence (sign test: 2^(1 − n)).
+// 6 at 95 %.
 int FewestPairs(double confidence);
 
 enum class Difference { kTooFewPairs, kNotShown, kLower, kHigher };
@@ -60,29 +61,30 @@ const char* Name(Difference difference);
 
 struct PairedComparison {
   SampleSpread difference;  // other − reference, over the pairs
-  // Of the independent units: means of scenes, or, of a single scene, its pairs.
+  // Over the independent units: the means of scenes or, for a single scene, its pairs.
   SampleSpread unit_difference;
   int scenes = 0;
   Interval interval;  // of the mean difference
-  // That units whose mean difference is 0 differ by so much (Student's t); of one unit 1.
+  // p-value of the mean difference over units (Student's t); 1 for one unit.
   double p = 1.0;
   double adjusted_p = 1.0;                        // see AdjustByHolm
-  Difference verdict = Difference::kTooFewPairs;  // of the other against the reference
+  Difference verdict = Difference::kTooFewPairs;  // of the other compared with the reference
 };
 
 // `differences` of pairs, other − reference, grouped by scene: six pairs from two scenes are not
-// six independent ones. A difference is called one only if its interval excludes zero, adjusted_p
-// is at most 1 − confidence and there are FewestPairs. std::invalid_argument if there is none.
+// six independent ones. A difference is significant only if its interval excludes zero, adjusted_p
+// is at most 1 − confidence and there are at least FewestPairs pairs. std::invalid_argument if
+// there is no pair.
 PairedComparison ComparePairs(const Groups& differences, const BootstrapSettings& settings = {});
 
-// Holm's correction (1979) for comparisons that are made together: with it, the probability that
-// any difference is called one by chance is at most 1 − confidence. Sets adjusted_p and the
-// verdicts; comparisons of too few pairs do not count.
+// Holm's correction (1979) for multiple comparisons: the probability of at least one false positive
+// is at most 1 − confidence. Sets adjusted_p and the verdicts; comparisons with too few pairs do
+// not count.
 void AdjustByHolm(std::span<PairedComparison* const> comparisons, double confidence);
 
-// How many independent units it takes to show a difference of that size with this probability, if
-// units differ by `deviation` (normal; Student's test). At least 2; std::invalid_argument unless
-// difference and deviation are positive.
+// Number of independent units needed to show a difference of that size with probability `power`, if
+// the units have the standard deviation `deviation` (normal; Student's t-test). At least 2;
+// std::invalid_argument unless difference and deviation are positive.
 int UnitsToShow(double difference, double deviation, double confidence, double power);
 
 }  // namespace vitruvia

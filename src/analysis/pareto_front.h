@@ -1,4 +1,4 @@
-// What is worth choosing where two costs are to be low.
+// The Pareto front of two costs that are to be minimised.
 #pragma once
 
 #include <span>
@@ -10,8 +10,8 @@ struct Costs {
   double first = 0.0, second = 0.0;
 };
 
-// Whether each is on the front: no other is at least as low in both and lower in one. Equal ones
-// are on it together; one with a cost that is no number is not.
+// Whether each is on the front, that is, whether no other is at most as high in both costs and
+// lower in one. Equal ones are on the front together; one with a NaN cost is not.
 std::vector<bool> ParetoFront(std::span<const Costs> costs);
 
 }  // namespace vitruvia

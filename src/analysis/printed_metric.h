@@ -1,4 +1,4 @@
-// Metrics as people read them: scaled to the catalogue's unit, with its number of decimals.
+// Formatting of metrics: scaled to the catalogue's unit, with its number of decimals.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace vitruvia {
 
-inline constexpr const char* kNoNumber = "–";  // where a value is missing
+inline constexpr const char* kNoNumber = "–";  // printed for a missing value
 
 std::string Printed(double value, const Metric& metric);  // without unit
 std::string PrintedSigned(double difference, const Metric& metric);
@@ -18,7 +18,7 @@ std::string SignedNumber(double number, int decimals);
 std::string PrintedCell(const nlohmann::json& cell, const Metric& metric);
 // "label (unit)"
 std::string Titled(const Metric& metric);
-// Unit, and the factor between stored and printed numbers; "" where there is no unit.
+// Unit, and the factor between stored and printed numbers; "" if there is no unit.
 std::string UnitText(const Metric& metric);
 // Label, definition, formula, what is averaged, what counts, unit and direction on a few lines.
 std::string Explanation(const Metric& metric);

@@ -21,12 +21,14 @@ void ExperimentReduction::Describe(Fields& f) {
              .max = 1e6});
   f.Integers(
       "seeds", seeds,
-      {.meaning = "seeds in place of the experiment's; as it says if empty", .min = 0, .max = 1e9});
-  f.Text("why", why, {.meaning = "why a part of the experiment is enough", .required = true});
+      {.meaning = "seeds that replace those of the experiment; if empty, the experiment's are used",
+       .min = 0,
+       .max = 1e9});
+  f.Text("why", why, {.meaning = "reason why a part of the experiment suffices", .required = true});
 }
 
 void ShownPictures::Describe(Fields& f) {
-  f.Text("of", of, {.meaning = "whose runs are shown: pattern of \"method/variant\""});
+  f.Text("of", of, {.meaning = "contenders whose runs are shown: pattern of \"method/variant\""});
   f.Texts("scenes", scenes, {.meaning = "patterns of the scenes that are shown; all if empty"});
   f.Integers("frames", frames,
              {.meaning = "frames that are shown; those of the experiment if empty", .min = 0});
@@ -41,10 +43,12 @@ void ShownPictures::Describe(Fields& f) {
 void ShownTable::Describe(Fields& f) {
   f.Text("title", title, {.meaning = "title of the table", .required = true});
   f.Choice("rows", rows, {{"contenders", TableRows::kContenders}, {"methods", TableRows::kMethods}},
-           {.meaning = "what its rows are: methods with each of their variants, or methods over "
+           {.meaning = "rows of the table: methods with each of their variants, or methods over "
                        "all of their variants"});
-  f.Texts("scenes", scenes, {.meaning = "patterns of the scenes that it is over; all if empty"});
-  f.Texts("metrics", metrics, {.meaning = "keys of its columns", .required = true});
+  f.Texts("scenes", scenes,
+          {.meaning = "patterns of the scenes that the table averages over; all if empty"});
+  f.Texts("metrics", metrics,
+          {.meaning = "keys of the metrics in the table's columns", .required = true});
 }
 
 std::string ShownTable::Problem() const {
@@ -57,24 +61,22 @@ std::string ShownTable::Problem() const {
 
 void ReproducedFigure::Describe(Fields& f) {
   f.Text("id", id, {.meaning = "name of the figure on the command line", .required = true});
-  f.Text("place", place, {.meaning = "where it stands in the papers", .required = true});
-  f.Text("title", title, {.meaning = "what it is about", .required = true});
-  f.Text("caption", caption, {.meaning = "what our figure shows", .required = true});
+  f.Text("place", place, {.meaning = "place of the figure in the papers", .required = true});
+  f.Text("title", title, {.meaning = "title of the figure", .required = true});
+  f.Text("caption", caption, {.meaning = "what the reproduced figure shows", .required = true});
   f.Text("published", published, {.meaning = "what the paper shows or prints there"});
   f.Text("claim", claim,
-         {.meaning = "what the paper claims and supports by the figure; empty for a figure of our "
-                     "own beside no claim"});
+         {.meaning = "the paper's claim that the figure supports; empty if it supports none"});
   f.Files("experiments", experiments,
-          {.meaning = "experiment files that it is made from", .required = true});
-  f.Files(
-      "eval_experiments", eval_experiments,
-      {.meaning = "experiment files that take their place where VITRUVIA_EVAL names a folder of "
-                  "imported Stanford EVAL sequences"});
-  f.List("tests", tests, {.meaning = "tests that decide on the claim: all must hold"});
+          {.meaning = "experiment files from which the figure is made", .required = true});
+  f.Files("eval_experiments", eval_experiments,
+          {.meaning = "experiment files that replace `experiments` if VITRUVIA_EVAL names a folder "
+                      "of imported Stanford EVAL sequences"});
+  f.List("tests", tests, {.meaning = "tests of the claim; the claim holds if all of them hold"});
   f.Text("cannot_be_tested", cannot_be_tested,
-         {.meaning = "why no test decides on the claim; then there are no tests"});
+         {.meaning = "reason why the claim cannot be tested; there are no tests then"});
   f.List("pictures", pictures, {.meaning = "pictures that are shown"});
-  f.Texts("plots", plots, {.meaning = "names of plots that are shown; the beginning is enough"});
+  f.Texts("plots", plots, {.meaning = "names of plots that are shown, or their beginnings"});
   f.List("tables", tables, {.meaning = "tables that are shown"});
 }
 
@@ -92,7 +94,7 @@ void ReproductionList::Describe(Fields& f) {
   f.Text("title", title, {.meaning = "title of the page", .required = true});
   f.Text("description", description, {.meaning = "what is printed at the head of the page"});
   f.List("reductions", reductions,
-         {.meaning = "experiments of which only a part is carried out for the page"});
+         {.meaning = "experiments of which only a part is run for the page"});
   f.List("figures", figures, {.meaning = "figures in the order of the page", .required = true});
 }
 

@@ -1,5 +1,5 @@
-// The list of the papers' figures and tables that are made anew: what each shows, which experiments
-// it is made from, and what decides on the claim that it supports.
+// The list of the papers' reproduced figures and tables: the content of each, the experiments that
+// it is made from, and the tests of the claim that it supports.
 #pragma once
 
 #include <filesystem>
@@ -11,12 +11,12 @@
 
 namespace vitruvia {
 
-// A part of an experiment that is enough for its figures.
+// A reduction of an experiment that suffices for its figures.
 struct ExperimentReduction {
   std::filesystem::path experiment;
   std::string only;        // pattern of run ids, variants or scenes; "": all runs
   int most_frames = 0;     // of each scene; 0: all
-  std::vector<int> seeds;  // in place of the experiment's; empty: as it says
+  std::vector<int> seeds;  // replace those of the experiment; empty: unchanged
   std::string why;
 
   void Describe(Fields& fields);
@@ -33,7 +33,7 @@ struct ShownPictures {
   void Describe(Fields& fields);
 };
 
-// What the rows of a table are about.
+// What a row of a table stands for.
 enum class TableRows {
   kContenders,  // "method/variant"
   kMethods,     // each over all of its variants
@@ -54,14 +54,14 @@ struct ReproducedFigure {
   std::string id;     // "A11": how a command names it
   std::string place;  // "Paper A, figure 11"
   std::string title, caption;
-  std::string published, claim;  // "": beside no claim of a paper
+  std::string published, claim;  // "": not related to a claim of a paper
   std::vector<std::filesystem::path> experiments;
-  // That take the place of `experiments` where the user has Stanford EVAL; empty: the same ones.
+  // Used instead of `experiments` if the user has Stanford EVAL; empty: no replacement.
   std::vector<std::filesystem::path> eval_experiments;
   std::vector<ClaimTest> tests;
-  std::string cannot_be_tested;  // why no test decides
+  std::string cannot_be_tested;  // reason if no test can decide the claim
   std::vector<ShownPictures> pictures;
-  std::vector<std::string> plots;  // names of plots (reports/figures), the beginning is enough
+  std::vector<std::string> plots;  // names of plots (reports/figures), or their beginnings
   std::vector<ShownTable> tables;
 
   void Describe(Fields& fields);
@@ -76,12 +76,12 @@ struct ReproductionList {
   void Describe(Fields& fields);
   std::string Problem() const;
 
-  // The experiment's reduction; nullptr if all of it is carried out.
+  // The experiment's reduction; nullptr if it is run completely.
   const ExperimentReduction* ReductionOf(const std::filesystem::path& experiment) const;
 };
 
 // The figures of those ids, in the list's order; all if there are no ids. ConfigError naming the
-// nearest id where there is none of a name.
+// nearest id if an id does not exist.
 std::vector<ReproducedFigure> ChosenFigures(const ReproductionList& list,
                                             const std::vector<std::string>& ids);
 

@@ -65,7 +65,7 @@ TextTable PaperTable(const ReportedExperiment& experiment) {
   return table;
 }
 
-// The variants' table and the comparison with the papers, those of them that have a row.
+// The variants' table and the comparison with the papers, without those that have no row.
 std::vector<TextTable> TablesOf(const ReportedExperiment& experiment) {
   const bool one_variant = ContendersOf(experiment).size() < 2;
   std::vector<TextTable> tables = {one_variant ? ToText(TabulateScenes(experiment), "scene")

@@ -19,11 +19,11 @@ struct ComparedRun {
   std::string problem;  // of a run without a record
 };
 
-// One published number and every run's beside it.
+// One published number and the corresponding numbers of all runs.
 struct Comparison {
   Expectation expectation;
   Metric metric;
-  std::string paper, target;  // printed; target "" where there is none
+  std::string paper, target;  // printed; `target` is "" if there is none
   std::vector<ComparedRun> runs;
 
   bool more_is_better() const { return !std::isnan(expectation.at_least); }
@@ -36,13 +36,13 @@ struct SummaryTable {
   std::vector<Metric> columns;
   struct Row {
     std::string run_id, problem;
-    std::vector<nlohmann::json> cells;  // as stored; null where the run has none
+    std::vector<nlohmann::json> cells;  // as stored; null if the run has none
   };
   std::vector<Row> rows;
 };
 SummaryTable MakeSummaryTable(const ReportedExperiment& experiment);
 
-// Paper A's table 1 beside a run's steps. NaN where the paper has none.
+// A run's step times and those of paper A's table 1, NaN if the paper has none.
 struct StepRow {
   std::string name;
   double paper_per_iteration_ms, paper_per_frame_ms;
@@ -50,10 +50,10 @@ struct StepRow {
 };
 std::vector<StepRow> CompareSteps(const RunRecord& run);
 
-// A row per run, numbers as stored, then for each published number paper and difference.
+// One row per run: the stored numbers, then for each published number its value and the difference.
 std::string ToCsv(const ReportedExperiment& experiment);
-// Two tables: the variants (of a single one its scenes) with the experiment's table_columns, and
-// the comparison with papers. A table without a row is left out.
+// Two tables: the variants (or the scenes of a single variant) with the experiment's table_columns,
+// and the comparison with papers. A table without rows is left out.
 std::string ToLatex(const ReportedExperiment& experiment);
 std::string ToMarkdown(const ReportedExperiment& experiment);
 

@@ -11,19 +11,20 @@ struct TextCell {
   bool bold = false;
 };
 
-// The first column is set to the left, the others to the right.
+// The first column is left-aligned, the others are right-aligned.
 struct TextTable {
   std::vector<std::string> head;
   std::vector<std::vector<TextCell>> rows;
-  std::vector<std::string> notes;  // sentences that say what the numbers are
+  std::vector<std::string> notes;  // sentences that explain the numbers
 };
 
-// A tabular with the rules of booktabs; the notes stand before it as comments.
+// A tabular in booktabs style; the notes precede it as comments.
 std::string ToLatex(const TextTable& table);
-// A table of GitHub's Markdown; the notes stand below it.
+// A table in GitHub's Markdown; the notes follow it.
 std::string ToMarkdown(const TextTable& table);
 
-// Plain text as LaTeX sets it: characters of its own escaped, typographic ones as commands.
+// Plain text as LaTeX source: special characters are escaped, typographic ones replaced by
+// commands.
 std::string LatexEscaped(const std::string& text);
 
 }  // namespace vitruvia

@@ -22,7 +22,7 @@ struct PairedRuns {
   int unpaired = 0;
 };
 
-// What two runs must share to be a pair.
+// The key that the two runs of a pair have in common.
 std::string PairKey(const RunRecord& run) {
   return fmt::format("{}\n{}\n{}", run.scene, run.seed, RepeatOf(run));
 }
@@ -55,7 +55,7 @@ bool SomePairHas(const std::vector<RunPair>& pairs, const Metric& metric) {
                      [&](const RunPair& pair) { return BothHave(pair, metric); });
 }
 
-// Those of Place::kComparison that some pair has and that are not 0 in all runs.
+// The metrics of Place::kComparison that some pair has and that are not 0 in all runs.
 std::vector<Metric> UsualMetrics(const std::vector<RunPair>& pairs) {
   std::vector<Metric> metrics = MetricsShownIn(Place::kComparison);
   std::erase_if(metrics, [&](const Metric& metric) {

@@ -1,4 +1,4 @@
-// Variants against each other: over the runs of one experiment, or of two folders.
+// Comparison of variants over the runs of one experiment, or of two folders.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,8 @@ namespace vitruvia {
 
 // All finished runs of one variant with one method.
 struct Contender {
-  // Variant, method or "method/variant": what tells it from the others. Where all were swept from
-  // one variant, that is left out.
+  // Variant, method or "method/variant", the shortest that distinguishes it from the others. If all
+  // contenders were swept from the same variant, its name is left out.
   std::string name;
   std::vector<const RunRecord*> runs;
 };
@@ -26,37 +26,38 @@ std::vector<Contender> ContendersOf(const ReportedExperiment& experiment);
 struct VariantComparison {
   Metric metric;
   std::string reference, other;
-  int unpaired = 0;  // runs of either side without a partner: failed, missing, or of another grid
+  int unpaired = 0;  // runs of either side without a partner: failed, missing, or not in the other
+                     // grid
   SampleSpread reference_spread, other_spread;  // over the pairs
   PairedComparison comparison;
 };
 
-// The contender that has every swept setting at its default; the first where there is no sweep or
-// no such one.
+// The contender with all swept settings at their defaults; the first contender if there is no sweep
+// or no such contender.
 std::size_t DefaultContender(const ReportedExperiment& experiment,
                              const std::vector<Contender>& contenders);
 
-// Every contender against `reference`; "": the default one. `metrics` empty: those that matter most
-// of those that there are. A contender without any pair in a metric has no row for it. ConfigError
-// if there is nothing to compare with, or no contender or metric of a name.
+// Compares every contender with `reference`; "": the default one. `metrics` empty: the most
+// important ones available. A contender without any pair in a metric has no row for it. ConfigError
+// if there is nothing to compare, or if a contender or metric does not exist.
 std::vector<VariantComparison> CompareVariants(const ReportedExperiment& experiment,
                                                const std::string& reference,
                                                const std::vector<std::string>& metrics);
 
-// Runs of `other` against the same runs of `reference`: those of one contender's name, scene, seed
-// and repeat. One row for each contender and metric, and for all together ("all") if there are
-// several. ConfigError if no run has a partner.
+// Compares the runs of `other` with the runs of `reference` that have the same contender name,
+// scene, seed and repeat. One row for each contender and metric, and one for all contenders
+// together ("all") if there are several. ConfigError if no run has a partner.
 std::vector<VariantComparison> CompareExperiments(const ReportedExperiment& reference,
                                                   const ReportedExperiment& other,
                                                   const std::vector<std::string>& metrics);
 
-// An experiment in one row for each contender: means over its scenes, seeds and repeats.
+// One row of a contender: means over its scenes, seeds and repeats.
 struct VariantSummary {
   struct Cell {
     SampleSpread spread;  // over all its finished runs that have the metric
-    // Against the reference, over pairs; nothing for the reference itself or without a pair.
+    // Comparison with the reference over pairs; nothing for the reference itself or without a pair.
     std::optional<VariantComparison> difference;
-    // Better than all others, and its difference from the second best is shown.
+    // Better than all others, and the difference to the second best is significant.
     bool is_best = false;
   };
   std::string name;
@@ -65,13 +66,13 @@ struct VariantSummary {
 };
 struct VariantTable {
   std::string reference;
-  std::vector<Metric> metrics;  // the experiment's table_columns, or those a reader looks at first
+  std::vector<Metric> metrics;  // the experiment's table_columns, or the most important ones
   std::vector<VariantSummary> rows;
 };
 VariantTable TabulateVariants(const ReportedExperiment& experiment);
-// Of an experiment with a single contender: a row for each scene, over its seeds.
+// For an experiment with a single contender: a row for each scene, over its seeds.
 VariantTable TabulateScenes(const ReportedExperiment& experiment);
-// Mean ± standard deviation of each cell; the best one bold where that is shown.
+// Mean ± standard deviation of each cell; the best one bold if that is significant.
 TextTable ToText(const VariantTable& table, const std::string& first_column);
 // { "confidence", "reference", "rows": [ { "variant", "runs", "metrics": { … } } ] }
 nlohmann::json ToJson(const VariantTable& table);
@@ -86,13 +87,14 @@ std::string ToCsv(const std::vector<VariantComparison>& rows);
 // Variant, mean ± standard deviation, difference, interval, pairs and verdict.
 TextTable ToText(const std::vector<VariantComparison>& rows);
 
-// What the pairs are independent samples of: "8 scenes", or "6 pairs" of one scene.
+// The number of independent units: "8 scenes", or "6 pairs" of one scene.
 std::string UnitsText(const PairedComparison& comparison);
-// "mean ± deviation", scaled to the metric's unit; without the deviation where there is none.
+// "mean ± deviation", scaled to the metric's unit; without the deviation if there is none.
 std::string SpreadText(const SampleSpread& spread, const Metric& metric);
-// "+1.2 … +1.6"; "–" where nothing is known of it.
+// "+1.2 … +1.6"; "–" if there is no interval.
 std::string IntervalText(const VariantComparison& row);
-// How comparisons are made, in full sentences; `count` of them are corrected together.
+// Description of the statistical method, in full sentences; `count` comparisons are corrected
+// together.
 std::string MethodText(std::size_t count);
 
 }  // namespace vitruvia

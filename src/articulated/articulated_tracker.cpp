@@ -27,7 +27,7 @@ BodyState RestState(const Skeleton& skeleton, const Rigidd& camera_from_subject)
   return state;
 }
 
-// The state after the last one if that share of the last change goes on.
+// Predicts the next state by adding a share of the last change.
 BodyState Predicted(const BodyState& last, const BodyState& before, double share) {
   Eigen::VectorXd step(kParameterCount);
   const Matrix3<double> turn = last.rotation * before.rotation.transpose();
@@ -130,14 +130,14 @@ TrackResult ArticulatedTracker::Session::Track(const DepthFrame& frame) {
                   is_first ? stopping.first_frame_iterations : stopping.iterations, team, clock);
   fit = Better(observation, std::move(fit), is_first);
   Ending ending = EndingOf(fit);
-  // A first frame has no velocity, nor has what was lost.
+  // The first frame and lost frames have no velocity.
   before_last = is_first || IsFailure(ending.outcome) ? fit.state : *last;
   last = fit.state;
   if (is_first && start_search) ending.message = WithStart(start_message, ending.message);
   return Result(fit, WorldFromRest(body, fit.state), std::move(ending));
 }
 
-// Leaves `last` empty if the subject was searched for and not found.
+// Leaves `last` empty if a search does not find the subject.
 void ArticulatedTracker::Session::FindFirstState(const Observation& observation,
                                                  const KnownJoints& known) {
   constexpr double kVisibleWithin_m = 0.01;
@@ -170,8 +170,9 @@ PoseFitting ArticulatedTracker::Session::Better(const Observation& observation, 
   return *std::move(found);
 }
 
-// Hypotheses are the remembered poses and the current one, turned to all sides, with the visible
-// surface's mean at the cloud's. The best is returned if it agrees clearly better.
+// Hypotheses are the remembered poses and the current one, each with all HypothesisRotations(),
+// with the visible surface's mean at the cloud's mean. The best is returned if it agrees clearly
+// better.
 std::optional<PoseFitting> ArticulatedTracker::Session::Search(const Observation& observation,
                                                                const PoseFitting& current) {
   struct Tester {
@@ -219,8 +220,8 @@ ArticulatedTracker::Ending ArticulatedTracker::Session::EndingOf(const PoseFitti
   return {Outcome::kIterationLimit, fmt::format("stopped after {} iterations", fit.iterations)};
 }
 
-// A frame that cannot be fitted: the pose stays; before the first one that can it is the rest pose
-// at the camera.
+// Result of a frame that cannot be fitted: the last pose, or the rest pose at the camera if no
+// frame was fitted before.
 TrackResult ArticulatedTracker::Session::CarriedOver(Ending ending) {
   loss_detector.NoteEmptyFrame();
   before_last = last;

@@ -1,5 +1,6 @@
-// A tracker of a body in anatomical angles that lacks nothing but its data term: first placement,
-// prediction, iterations, loss and recovery, and the subject's surface driven by the bones.
+// Base class of trackers of a body in anatomical angles. It implements everything except the data
+// term: first placement, prediction, iterations, detection of loss and recovery, and the subject's
+// surface driven by the bones.
 #pragma once
 
 #include <memory>
@@ -15,16 +16,16 @@ class ArticulatedTracker : public Tracker {
   ArticulatedTracker(const char* name, const CommonSettings& settings);
   ~ArticulatedTracker() override;
 
-  // DataError if the subject's mesh, weights or skeleton are not sound.
+  // DataError if the subject's mesh, weights or skeleton are invalid.
   void Start(const Subject& subject, const PinholeCamera& camera) final;
-  // Energies: the data term's, then that of the prior about the prediction.
+  // Energies of the result: those of the data term, then that of the prior about the prediction.
   TrackResult TrackFrame(const DepthFrame& frame) final;
 
  private:
   struct Session;  // everything that depends on the subject and the camera
   struct Ending;
 
-  // `body` is the subject on fewer vertices; it outlives the term.
+  // `body` is the subject decimated to fewer vertices; it outlives the term.
   virtual std::unique_ptr<DataTerm> MakeDataTerm(const Subject& subject, const ShapedBody& body,
                                                  const PinholeCamera& camera) const = 0;
 

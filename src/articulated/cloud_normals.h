@@ -1,4 +1,4 @@
-// Normals of a depth image's surface at a cloud's points.
+// Surface normals of a depth image at the points of its cloud.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace vitruvia::articulated {
 
-// For each point the unit normal towards the camera, from the pixels `step_px` to its left, right,
-// top and bottom; zero where they do not lie on one surface with it.
+// For each point the unit normal towards the camera, from the pixels at distance `step_px` to its
+// left, right, top and bottom; zero if these do not lie on the same surface as the point.
 void FindNormals(const PointCloud& cloud, const DepthImage& depth, const PinholeCamera& camera,
                  int step_px, std::vector<Vector3f>& normals);
 

@@ -1,4 +1,4 @@
-// What one method adds to the pose's normal equations from a frame.
+// The part of the pose's normal equations that a method computes from a frame.
 #pragma once
 
 #include <vector>
@@ -13,8 +13,8 @@
 namespace vitruvia::articulated {
 
 enum class TimedStep {
-  kObserve,  // cloud and what else is made of the frame
-  kPose,     // bones, their twists, what they carry
+  kObserve,  // cloud and other data derived from the frame
+  kPose,     // bones, their twists, and geometry attached to them
   kMatch,    // model against frame
   kAssemble,
   kSolve,
@@ -41,13 +41,14 @@ class DataTerm {
   virtual ~DataTerm() = default;
 
   virtual void Observe(const Observation& observation) = 0;
-  // A new pose from which iterations begin.
+  // Called with the pose from which iterations begin.
   virtual void Begin(const MovingBones& /*bones*/) {}
-  // Adds the rows of the frame last observed at that pose. `progress` goes from 0 in the first
-  // iteration to 1 in the last one that is allowed. Charges its time to kPose, kMatch, kAssemble.
+  // Adds the rows of the last observed frame, linearised at the bones' pose. `progress` goes from 0
+  // in the first iteration to 1 in the last one that is allowed. Charges its time to kPose, kMatch,
+  // kAssemble.
   virtual void AddRows(const MovingBones& bones, double progress, WorkerTeam& team, Clock& clock,
                        PoseSystem& system) = 0;
-  // Of the rows last added, each term once and in a fixed order; 0 before.
+  // Energies of the rows last added, each term once and in a fixed order; 0 before the first rows.
   virtual std::vector<NamedValue> Energies() const = 0;
 };
 

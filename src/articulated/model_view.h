@@ -19,9 +19,9 @@ class ModelView {
   const DepthImage& depth() const { return *depth_; }                  // rendered
   const std::vector<int>& visible() const { return visible_; }         // vertices, ascending
 
-  // Of the pose last looked at with a frame.
+  // Agreement of a frame with the pose of the last Look().
   Agreement Compare(const DepthImage& captured, const PointCloud& cloud, double near_m);
-  // The mean of the visible vertices, of all where none is visible.
+  // The mean of the visible vertices, or of all vertices if none is visible.
   Vector3d VisibleCentroid() const;
 
  private:

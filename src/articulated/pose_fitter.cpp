@@ -15,7 +15,7 @@ using Parameters = Eigen::Matrix<double, kParameterCount, 1>;
 constexpr int kRotation = PosedBody::kRotation, kPosition = PosedBody::kPosition,
               kAngles = PosedBody::kAngles;
 
-// By how much a state differs from another, in the parameters of the bones.
+// Difference of two states in the parameters of the bones.
 Parameters Difference(const BodyState& state, const BodyState& from) {
   Parameters difference;
   const Matrix3<double> turn = state.rotation * from.rotation.transpose();
@@ -79,7 +79,7 @@ PoseFitting PoseFitter::Fit(const Observation& observation, const BodyState& pre
     fit.converged = turned < settings_.stopping.rotation_step_deg * kRadiansPerDegree &&
                     step.segment<3>(kPosition).norm() < settings_.stopping.translation_step_m;
   }
-  // Made orthonormal, or the rounding errors of many steps would add up.
+  // Orthonormalised, so that rounding errors do not accumulate over many steps.
   fit.state.rotation = NearestRotation(fit.state.rotation);
   fit.agreement = Compare(observation, fit.state);
   clock.Lap(TimedStep::kAgreement);

@@ -11,7 +11,7 @@ struct PoseFitting {
   BodyState state;
   int iterations = 0;
   bool converged = false;
-  bool solved = true;  // false: a step was not finite, and the state is the one before it
+  bool solved = true;  // false: a step was not finite, and the state is that before this step
   Agreement agreement;
   double prior_energy = 0.0;  // before the last step
 };
@@ -22,11 +22,11 @@ class PoseFitter {
              DataTerm& term)
       : settings_(settings), term_(term), bones_(body), view_(body, camera) {}
 
-  // The term has observed the frame.
+  // The data term must have observed the frame before.
   PoseFitting Fit(const Observation& observation, const BodyState& predicted, int iterations,
                   WorkerTeam& team, Clock& clock);
   Agreement Compare(const Observation& observation, const BodyState& state);
-  // The state moved so that the mean of its visible surface lies there.
+  // The state translated so that the mean of its visible surface lies at `center`.
   BodyState Centered(BodyState state, const Vector3d& center);
 
  private:

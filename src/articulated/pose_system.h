@@ -15,7 +15,8 @@
 
 namespace vitruvia::articulated {
 
-// One bone's share of a point that several bones carry: where that bone alone would put it.
+// One bone's share of a point that is skinned to several bones: the place where this bone alone
+// would put the point.
 struct CarriedPoint {
   int bone;
   double weight;
@@ -26,13 +27,14 @@ class PoseSystem {
  public:
   void Reset() { bones_.Reset(); }
 
-  // A point that one bone carries.
+  // Row of a point that moves rigidly with one bone.
   void AddRow(int bone, const Vector3d& x, const Vector3d& direction, double residual,
               double weight);
-  // The distance of two points along `direction`, which moves a one way and b the other.
+  // Row of the distance a − b of two points along `direction`.
   void AddPairRow(int bone_a, const Vector3d& a, int bone_b, const Vector3d& b,
                   const Vector3d& direction, double residual, double weight);
-  // A point x = Σ weight · place: linear blend skinning. No bone may stand twice.
+  // Row of a point x = Σ weight · place (linear blend skinning). `shares` must not contain a bone
+  // twice.
   void AddBlendedRow(std::span<const CarriedPoint> shares, const Vector3d& direction,
                      double residual, double weight);
 

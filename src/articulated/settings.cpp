@@ -36,7 +36,7 @@ void StoppingSettings::Describe(Fields& f) {
 
 void PredictionSettings::Describe(Fields& f) {
   f.Number("velocity_share", velocity_share,
-           {.meaning = "share of the last frame's velocity that is expected again",
+           {.meaning = "share of the last frame's velocity that is predicted for the next frame",
             .min = 0,
             .max = 1,
             .origin = Origin::kTuned,
@@ -75,12 +75,13 @@ void DataSettings::Describe(Fields& f) {
             .origin = Origin::kGuessed,
             .source = "how far the model is from the person's surface"});
   f.Number("independent_points", independent_points,
-           {.meaning = "number of independent points that all points of a frame together stand for",
+           {.meaning = "effective number of independent points in a frame, by which the weights of "
+                       "all its points are scaled",
             .min = 1,
             .max = 1e6,
             .origin = Origin::kGuessed,
             .source = "errors of neighbouring points are nearly the same"});
-  f.Section("noise", noise, {.meaning = "what is known of the sensor's noise"});
+  f.Section("noise", noise, {.meaning = "noise model of the sensor"});
 }
 
 double DataSettings::Deviation_m(double depth_m) const {
@@ -94,7 +95,7 @@ double DataSettings::RowWeight(std::size_t rows, double depth_m) const {
 
 void CommonSettings::Describe(Fields& f) {
   f.Integer("stride_px", stride_px,
-            {.meaning = "every how many columns and rows a pixel becomes a point of the cloud",
+            {.meaning = "stride in columns and rows of the pixels that become points of the cloud",
              .unit = "px",
              .min = 1,
              .max = 16,
@@ -107,8 +108,8 @@ void CommonSettings::Describe(Fields& f) {
             .origin = Origin::kGuessed,
             .source = "range of the depth cameras in use"});
   f.Section("stopping", stopping, {.meaning = "stopping rule of the iterations"});
-  f.Section("prediction", prediction, {.meaning = "the pose that is expected in a frame"});
-  f.Section("data", data, {.meaning = "weight of a frame's data against the prediction"});
+  f.Section("prediction", prediction, {.meaning = "prediction of a frame's pose"});
+  f.Section("data", data, {.meaning = "weight of a frame's data relative to the prediction"});
   f.Integer("surface_vertices", surface_vertices,
             {.meaning = "vertices of the subject's surface on which visibility and the agreement "
                         "with the frame are judged",

@@ -1,4 +1,4 @@
-// Settings that all trackers of an articulated body have.
+// Settings common to all trackers of an articulated body.
 #pragma once
 
 #include "config/settings.h"
@@ -18,7 +18,7 @@ struct StoppingSettings {
   void Describe(Fields& fields);
 };
 
-// The pose that is expected, and how far a frame may leave it.
+// The predicted pose and the standard deviations of the prior about it.
 struct PredictionSettings {
   double velocity_share = 0.5;
   double angle_deviation_deg = 5.0;
@@ -28,16 +28,16 @@ struct PredictionSettings {
   void Describe(Fields& fields);
 };
 
-// How much the data of a frame weigh against the prediction.
+// The weight of a frame's data relative to the prediction.
 struct DataSettings {
   double deviation_m = 0.01;
   double independent_points = 300.0;
   DepthNoise noise;
 
   void Describe(Fields& fields);
-  // Of a point at that depth from the model, the sensor's noise included.
+  // Standard deviation of a point at that depth from the model, including the sensor's noise.
   double Deviation_m(double depth_m) const;
-  // Of one row of `rows` that stand for the whole view, of a point at that depth, per m².
+  // Weight (1/m²) of the row of a point at that depth, if the whole view has `rows` rows.
   double RowWeight(std::size_t rows, double depth_m) const;
 };
 

@@ -1,4 +1,4 @@
-// A camera of fewer pixels.
+// A camera of reduced resolution.
 #pragma once
 
 #include "geometry/camera.h"

@@ -13,12 +13,12 @@ struct AnatomicalPose {
   std::array<std::array<double, kSideAngleCount>, kSideCount> sides_deg{};
 };
 
-// The same pose in a mirror: left and right change places.
+// The mirrored pose: left and right are exchanged.
 AnatomicalPose Mirrored(const AnatomicalPose& pose);
 
 // Fills in the rotation of every bone but the pelvis. A trunk's bend is shared evenly by abdomen
-// and chest, a neck's by neck and head, a forearm's pronation by forearm and hand: no cross-section
-// turns by more than half of it against its neighbour.
+// and chest, a neck's by neck and head, a forearm's pronation by forearm and hand: no two
+// neighbouring cross-sections turn relative to each other by more than half of it.
 void SetRotations(const AnatomicalPose& pose, JointPose& joints);
 
 }  // namespace vitruvia

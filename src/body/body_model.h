@@ -1,4 +1,4 @@
-// A body: surface in the rest pose, skeleton, weights and what is known of the person.
+// A body: surface in the rest pose, skeleton, skinning weights and the person's attributes.
 #pragma once
 
 #include <filesystem>
@@ -33,7 +33,7 @@ void CheckBodyModel(const BodyModel& body, const std::string& where);
 BodyModel ReadBodyModel(const std::filesystem::path& folder);
 void WriteBodyModel(const std::filesystem::path& folder, const BodyModel& body);
 
-// weights.bin by itself. DataError if it is not for that many vertices.
+// Reads weights.bin alone. DataError if it does not hold vertex_count vertices.
 SkinWeights ReadWeights(const std::filesystem::path& file, std::size_t vertex_count);
 void WriteWeights(const std::filesystem::path& file, const SkinWeights& weights);
 

@@ -12,10 +12,11 @@ namespace vitruvia {
 inline constexpr int kBodyPointCount = kBoneCount + 5;
 
 struct BodyPointInfo {
-  std::string name;  // of the joint; of a tip "head_tip", "left_hand_tip", …
-  int bone;          // that the point is fixed to: the joint's bone, or the bone of the tip
+  std::string name;  // the joint's name; for a tip "head_tip", "left_hand_tip", …
+  int bone;          // the bone that the point belongs to: the joint's bone, or the bone of the tip
   bool is_tip;       // the bone's distal end; otherwise its proximal one
-  int parent;  // the point before it on the way from the pelvis, always of smaller index; −1
+  int parent;  // the previous point on the chain from the pelvis, always of smaller index; −1 for
+               // the pelvis
 };
 // The joints in the order of BoneId, then the tips.
 const std::array<BodyPointInfo, kBodyPointCount>& BodyPoints();

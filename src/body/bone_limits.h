@@ -1,4 +1,4 @@
-// How far each bone turns against its parent, from the ranges of the anatomical joints.
+// Limits of each bone's rotation relative to its parent, from the ranges of the anatomical joints.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 namespace vitruvia {
 
 // Limits of the components of the rotation vector of a bone's local rotation (rest axes, radians);
-// infinite where there is none.
+// infinite if there is no limit.
 struct BoneLimits {
   Vector3<double> min_rad, max_rad;
 

@@ -1,9 +1,9 @@
-// Joint angles as an anatomist names them, with their signs and how far a healthy adult's go.
+// Anatomical joint angles: their names, signs and the ranges of healthy adults.
 //
 // All angles are zero in the neutral standing position: upright, arms hanging, palms towards the
 // thighs, feet forward. (The rest pose of a skeleton, the T-pose, is therefore not zero but both
 // shoulders abducted by 90 degrees.) Every angle is positive for the motion that it is named after,
-// on either side of the body:
+// on both sides of the body:
 //
 //   spine, neck      flexion_deg            bends forward
 //                    bend_left_deg          bends sideways, towards the subject's left

@@ -13,8 +13,8 @@ struct Row {
   Vector3<double> mean_deg, deviation_deg;
 };
 
-// Deviations are at least 0.1 rad (5.7 degrees), for four clips show too little of a neck. The mean
-// of the logarithm of the density over the clips that they are checked on (02_06, 02_09, 03_02,
+// Deviations are at least 0.1 rad (5.7 degrees), because four clips contain too little motion of
+// some joints, such as the neck. The mean log density over the test clips (02_06, 02_09, 03_02,
 // 11_01) is 3.4 nats for all bones together; with uniformly distributed rotations it is −70.
 const std::array<Row, 10>& Rows() {
   static const std::array<Row, 10> rows{{

@@ -55,8 +55,9 @@ struct Skeleton {
       tips;  // distal ends: crown, finger tips, toe tips at the leaves
 };
 
-// A pose as a body has it: the rotation of each bone relative to its parent (top level: relative to
-// the subject frame), and where the pelvis joint is. Independent of the body's proportions.
+// A pose in joint space: the rotation of each bone relative to its parent (the pelvis: relative to
+// the subject frame), and the position of the pelvis joint. Independent of the body's proportions,
+// except for that position.
 struct JointPose {
   std::array<Matrix3<double>, kBoneCount> local_rotations;    // parent_from_bone
   Vector3<double> pelvis_position = Vector3<double>::Zero();  // subject frame, metres
@@ -64,7 +65,7 @@ struct JointPose {
   static JointPose Rest(const Skeleton& skeleton);
 };
 
-// A pose as skinning wants it: for each bone the rigid motion from its rest place.
+// A pose as skinning needs it: for each bone the rigid motion from the rest pose.
 using BoneTransforms = std::vector<Rigidd>;  // posed_from_rest, size = number of bones
 
 BoneTransforms ForwardKinematics(const Skeleton& skeleton, const JointPose& pose);
@@ -72,7 +73,7 @@ BoneTransforms ForwardKinematics(const Skeleton& skeleton, const JointPose& pose
 // The joints' posed positions (as many as transforms).
 std::vector<Vector3<double>> PosedJoints(const Skeleton& skeleton, const BoneTransforms& bones);
 
-// Names that only one of the two has, in its order.
+// Joint names that only the sequence or only the skeleton has, in the order of their source.
 struct UnmatchedJoints {
   std::vector<std::string> only_in_sequence, only_in_skeleton;
 };

@@ -25,7 +25,7 @@ void CheckSizes(std::size_t vertex_count, const SkinWeights& weights, const char
           "{}: weights for {} vertices, mesh of {}", caller, weights.size(), vertex_count);
 }
 
-// A wrong index would read beyond the transforms, so it is looked for once before the loop.
+// Checked once before the loop, because a wrong index would read beyond the transforms.
 void CheckBones(const SkinWeights& weights, std::size_t bone_count, const char* caller) {
   std::uint8_t highest = 0;
   for (const auto& bones : weights.bones) {

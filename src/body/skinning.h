@@ -1,4 +1,4 @@
-// Skinning weights and the two ways to use them.
+// Skinning weights, linear blend skinning and dual quaternion skinning.
 #pragma once
 
 #include <cstdint>
@@ -23,16 +23,16 @@ struct SkinWeights {
 SkinWeights Sparsified(const Eigen::MatrixXf& dense);
 Eigen::MatrixXf Dense(const SkinWeights& weights, int bone_count);
 
-// "" if weights are valid for that many vertices and bones, otherwise what is wrong with which
-// vertex.
+// "" if the weights are valid for that many vertices and bones; otherwise a message that names the
+// vertex and the problem.
 std::string WeightsProblem(const SkinWeights& weights, std::size_t vertex_count, int bone_count);
 
 // v = Σ w (R v̄ + T) (paper A, eq. 2a). `posed` is resized to the number of vertices.
 void SkinLinear(const std::vector<Vector3f>& rest_vertices, const SkinWeights& weights,
                 const BoneTransforms& posed_from_rest, std::vector<Vector3f>& posed);
 
-// v = b̂(v̄), b̂ the normalised blend of the bones' dual quaternions, each flipped into the hemisphere
-// of the largest weight's (paper B, eqs. 3 and 4).
+// v = b̂(v̄), where b̂ is the normalised blend of the bones' dual quaternions, each flipped into
+// the hemisphere of the one with the largest weight (paper B, eqs. 3 and 4).
 void SkinDualQuaternion(const std::vector<Vector3f>& rest_vertices, const SkinWeights& weights,
                         const BoneTransforms& posed_from_rest, std::vector<Vector3f>& posed);
 

@@ -1,4 +1,4 @@
-// Poses in which a person may be met: starts for a search.
+// Typical poses of a person, used as starts of a pose search.
 #pragma once
 
 #include <array>
@@ -13,11 +13,12 @@ struct StartPose {
   AnatomicalPose pose;
 };
 
-// Poses that are not symmetric come with their mirror images.
+// The list contains the mirror image of every pose that is not symmetric.
 std::span<const StartPose> StartPoses();
 
-// Poses of an arm and of a leg, spread over what each can do. Of the angles of a side, an arm has
-// those from kShoulderFlexion up to kHipFlexion, a leg those from there on; the others are 0.
+// Poses of an arm and of a leg, spread over their ranges of motion. Of a side's angles, an arm's
+// are those from kShoulderFlexion up to but not including kHipFlexion, and a leg's are those from
+// kHipFlexion on; the others are 0.
 using SideAngles = std::array<double, kSideAngleCount>;
 std::span<const SideAngles> ArmPoses();
 std::span<const SideAngles> LegPoses();

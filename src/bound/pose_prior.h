@@ -1,13 +1,13 @@
-// What is known of a pose before a frame is seen.
+// Prior knowledge of a pose before a frame is observed.
 #pragma once
 
 #include "config/settings.h"
 
 namespace vitruvia {
 
-// Each unknown by itself, round the truth.
+// Independent standard deviations of the unknowns about the truth.
 struct PosePrior {
-  double rotation_deg = 60.0;  // of each bone against its parent
+  double rotation_deg = 60.0;  // of each bone relative to its parent
   double position_m = 1.0;     // of the body
 
   void Describe(Fields& fields);

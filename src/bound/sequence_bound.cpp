@@ -9,7 +9,7 @@
 namespace vitruvia {
 namespace {
 
-// A measurement this much nearer than the true surface is of something that hides it.
+// A measurement at least this much nearer than the true surface belongs to an occluder.
 constexpr float kHiddenBehind_m = 0.1f;
 
 SensorSettings SensorOf(const SequenceReader& sequence) {
@@ -22,7 +22,7 @@ bool IsEmpty(const DepthImage& depth) {
                      [](float z) { return !(z > 0.0f); });
 }
 
-// What stands before the body is not in its true rendering.
+// Removes pixels with occluders, which the true rendering does not contain.
 void RemoveHidden(const DepthImage& true_depth, const DepthImage& measured,
                   Image<PixelNoise>& noise) {
   for (std::size_t i = 0; i < noise.pixels().size(); ++i) {

@@ -1,4 +1,4 @@
-// The Cramér–Rao bound of each frame of a synthesised sequence by itself.
+// The Cramér–Rao bound of each single frame of a synthesised sequence.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ struct FrameBound {
 };
 
 // Bounds of a sequence's frames. Needs the true surface and joints, the subject, and the sensor's
-// model in the provenance, as `vitruvia synth` writes it; DataError names what there is not.
+// model in the provenance, as `vitruvia synth` writes it; DataError names what is missing.
 class SequenceBound {
  public:
   SequenceBound(const SequenceReader& sequence, const PosePrior& prior);

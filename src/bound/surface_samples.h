@@ -1,4 +1,4 @@
-// Which place of a mesh each pixel of a camera shows.
+// The surface point of a mesh that each pixel of a camera shows.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ struct SurfaceSample {
   std::array<float, 3> barycentric{};
 };
 
-// By the ray of each pixel's centre, camera frame. Of a closed mesh whose triangles are
-// counter-clockwise seen from outside, and which lies in front of the camera.
+// Casts the ray of each pixel's centre, camera frame. The mesh must be closed, with triangles
+// counter-clockwise seen from outside, and lie in front of the camera.
 Image<SurfaceSample> SampleSurface(const std::vector<Vector3f>& vertices_in_camera,
                                    const std::vector<Triangle>& triangles,
                                    const PinholeCamera& camera);

@@ -1,4 +1,4 @@
-// A cache of built folders: each is named after the settings it was built from and is used again
+// A cache of built folders. Each folder is named after the settings it was built from and is reused
 // only by the program that built it.
 #pragma once
 
@@ -10,17 +10,17 @@
 
 namespace vitruvia {
 
-// The settings with every path that they name in one spelling, so that the same files give the same
-// hash wherever the program was started: from the last folder called "configs" on, or else
-// absolute.
+// The settings with all their paths normalised, so that the same files give the same hash whatever
+// the working directory: a path starts at its last folder called "configs", or is absolute if it
+// has none.
 Json WithPortablePaths(const Json& resolved);
-// 16 hex digits of those settings.
+// Hash of the settings with portable paths, 16 hex digits.
 std::string SettingsHash(const Json& resolved);
 
 // A hash of everything that a result depends on: the settings, the content of every file that they
-// name, and the program (its linked identity, which differs whenever its code does). Equal keys
-// mean that building again would give the same result. For a folder that the settings name, the
-// names, sizes and times of its files stand for their content.
+// name, and the program (its build id, which changes with its code). With equal keys, building
+// again would give the same result. For a folder in the settings, the names, sizes and modification
+// times of its files are hashed instead of their content.
 std::string CacheKey(const Json& resolved);
 
 class CachedFolder {
@@ -29,7 +29,7 @@ class CachedFolder {
   CachedFolder(const std::filesystem::path& cache, const std::string& name, const Json& resolved);
 
   const std::filesystem::path& path() const { return folder_; }
-  // Whether the folder is there, complete, and built under this key.
+  // Whether the folder exists, is complete, and was built with this key.
   bool complete() const;
   // Calls `build` unless the folder is complete. If several processes ask for the same folder at
   // the same time, one builds it and the others wait.

@@ -18,21 +18,22 @@ namespace vitruvia {
 
 using Json = nlohmann::json;
 
-// Where a JSON value came from: for messages, and for paths relative to the file.
+// Where a JSON value was read from: needed for error messages and to resolve paths relative to the
+// file.
 struct JsonOrigin {
   std::filesystem::path file;  // as the user named it
   std::string path;            // key path of the value inside the file, "" for the whole
 };
 
-// Parses a whole file. Throws ConfigError (with line and column) if it is missing or is no JSON,
-// or if an object holds a key twice.
+// Parses a whole file. Throws ConfigError (with line and column) if it is missing or not valid
+// JSON, or if an object contains a key twice.
 Json ReadJsonFile(const std::filesystem::path& file);
 
 // `base` with RFC 7386 merge-patch `overrides` applied.
 Json Merged(Json base, const Json& overrides);
 
-// Whose rules a file follows: keys that settings leave out keep their defaults; stored data holds
-// every key that its description does not call optional (stored_data.h).
+// Which rules apply to missing keys: in settings they keep their defaults; stored data must hold
+// every key that its description does not mark as optional (stored_data.h).
 enum class FileKind { kSettings, kStoredData };
 
 namespace internal {
@@ -71,7 +72,7 @@ struct FieldDescription {
   std::string meaning, unit, range, default_value, origin, source;
 };
 
-// Every field of a struct, depth first, also those that depend on a choice.
+// Every field of a struct, depth first, including those that apply only for some choices.
 std::vector<FieldDescription> DescribeSettings(const std::string& prefix, void (*visit)(Fields&),
                                                FileKind kind = FileKind::kSettings);
 

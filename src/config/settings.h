@@ -4,7 +4,7 @@
 // once, with its meaning, unit, range and where its default comes from. The strict JSON reader, the
 // writer, the JSON schema and `vitruvia explain` all walk that one description, so a default, a
 // range and a unit stand in exactly one place. An optional member `std::string Problem() const`
-// checks what no single field can ("" when all is well).
+// checks conditions that involve several fields ("" if there is no problem).
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ enum class Origin {
   kPaper,    // printed in the paper that the field's source names
   kGuessed,  // the paper is silent; a reading of ours, not yet decided by a sweep
   kTuned,    // chosen by a measurement that the field's source names
-  kInput,    // a fact about a scene or an experiment: the user's to state
+  kInput,    // a fact about a scene or an experiment, given by the user
 };
 const char* Name(Origin origin);
 
@@ -38,9 +38,11 @@ struct About {
   double max = std::numeric_limits<double>::infinity();
   Origin origin = Origin::kInput;
   const char* source = "";  // equation, section or measurement behind the default
-  bool required = false;    // settings: the key must be there, there is no default
-  // Of stored data only, where every key that is not optional must be there (see stored_data.h).
-  bool optional = false;    // absent in the file where there is no value: NaN, empty text or list
+  bool required = false;    // settings: the key must be present; there is no default
+  // The rest is for stored data only, where every key that is not optional must be present (see
+  // stored_data.h).
+  bool optional = false;    // the key is left out of the file if there is no value: NaN, empty text
+                            // or list
   bool null_items = false;  // items of a list may be absent: null in the file, NaN in memory
   bool infinite = false;    // numbers may be infinite: "Infinity" or "-Infinity" in the file
 };
@@ -48,8 +50,8 @@ struct About {
 template <class Enum>
 using Choices = std::initializer_list<std::pair<const char*, Enum>>;
 
-// Visitor over the fields of a struct. Readers write through the references; writers and
-// explainers only look.
+// Visitor over the fields of a struct. Readers write through the references; writers and explainers
+// only read them.
 class Fields {
  public:
   virtual ~Fields() = default;
@@ -63,7 +65,7 @@ class Fields {
   virtual void File(const char* key, std::filesystem::path& value, const About& about) = 0;
   // Exactly N numbers.
   virtual void Numbers(const char* key, std::span<double> values, const About& about) = 0;
-  // A free JSON value, kept as it is: overrides that another reader will check.
+  // An unchecked JSON value, such as overrides that another reader checks later.
   virtual void FreeJson(const char* key, nlohmann::json& value, const About& about) = 0;
   virtual void Texts(const char* key, std::vector<std::string>& values, const About& about) = 0;
   virtual void Files(const char* key, std::vector<std::filesystem::path>& values,
@@ -73,8 +75,8 @@ class Fields {
   virtual void NumberList(const char* key, std::vector<double>& values, const About& about) = 0;
   virtual void Flags(const char* key, std::vector<bool>& values, const About& about) = 0;
 
-  // Numbers with names whose order matters, which an object would lose: [["name", 1.5], …].
-  // `Named` has the members `name` and `value`.
+  // Named numbers in a given order, stored as [["name", 1.5], …] because a JSON object has no
+  // order. `Named` has the members `name` and `value`.
   template <class Named>
   void NamedNumbers(const char* key, std::vector<Named>& values, const About& about) {
     NameAndNumberList pairs;
@@ -84,8 +86,8 @@ class Fields {
     for (auto& [name, value] : pairs) values.push_back({std::move(name), value});
   }
 
-  // Points: [[x, y, z], …]; with null_items an absent one is null, and NaN in memory. `Point` has
-  // data(), of three doubles.
+  // Points: [[x, y, z], …]; with null_items, an absent point is null in the file and NaN in memory.
+  // `Point` has a member data() that points to three doubles.
   template <class Point>
   void Points(const char* key, std::vector<Point>& points, const About& about) {
     std::vector<double> coordinates;
@@ -98,8 +100,8 @@ class Fields {
       std::copy_n(coordinates.data() + 3 * i, 3, points[i].data());
   }
 
-  // An object whose keys are data too. Values: double, std::string or std::vector<double>; `about`
-  // describes the object, and each value where the reader checks it.
+  // An object with arbitrary keys. Values: double, std::string or std::vector<double>. `about`
+  // describes the object, and its range applies to each value.
   template <class Value>
   void Map(const char* key, std::map<std::string, Value>& values, const About& about) {
     std::vector<std::string> names;
@@ -128,7 +130,7 @@ class Fields {
     EndSection();
   }
 
-  // Items are read onto default-constructed structs.
+  // Each item is read into a default-constructed struct.
   template <class Struct>
   void List(const char* key, std::vector<Struct>& values, const About& about) {
     std::size_t count = values.size();
@@ -142,7 +144,7 @@ class Fields {
     EndList();
   }
 
-  // True when fields that depend on an earlier choice are to be visited; an explainer visits all.
+  // Whether to visit fields that depend on an earlier choice; an explainer visits all of them.
   virtual bool Applies(bool condition) { return condition; }
 
   template <class Struct>
@@ -157,7 +159,7 @@ class Fields {
   using NameAndNumberList = std::vector<std::pair<std::string, double>>;
   virtual void NamesAndNumbers(const char* key, NameAndNumberList& values, const About& about) = 0;
   virtual void Triples(const char* key, std::vector<double>& coordinates, const About& about) = 0;
-  // Readers fill in the names; explainers give one that stands for all.
+  // Readers fill in the names; explainers give one placeholder name.
   virtual bool BeginMap(const char* key, std::vector<std::string>& names, const About& about) = 0;
   virtual void EndMap() = 0;
   virtual void ChoiceIndex(const char* key, std::size_t& index, std::span<const char* const> names,

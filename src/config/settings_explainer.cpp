@@ -63,7 +63,7 @@ class Explainer final : public Fields {
     Add(key, about.null_items ? "list of [x, y, z] and nulls" : "list of [x, y, z]", "[]", about);
   }
   bool BeginMap(const char* key, std::vector<std::string>& names, const About&) override {
-    names = {"NAME"};  // one line, of the entries, says all
+    names = {"NAME"};  // one placeholder entry describes all
     prefixes_.push_back(JoinedPath(prefixes_.back(), key));
     return true;
   }

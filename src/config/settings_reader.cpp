@@ -27,7 +27,8 @@ std::string Expected(const char* type, const About& about) {
   return text;
 }
 
-// Replaces a leading $NAME by the environment variable; relative paths hang on the config's folder.
+// Replaces a leading $NAME by the environment variable; other relative paths are relative to the
+// config's folder.
 std::filesystem::path ResolvedPath(const std::string& text, const std::string& where,
                                    const std::filesystem::path& config_file) {
   std::string expanded = text;
@@ -231,7 +232,7 @@ class Reader final : public Fields {
   bool WantsProblems() const override { return true; }
 
   void ReportProblem(const std::string& problem) override {
-    // A missing key explains a problem better than what follows from its absence.
+    // A missing key is reported instead of a problem that may follow from it.
     if (!problem.empty() && missing_.empty())
       throw ConfigError(fmt::format("{}: {}", Where(PathOf(levels_.size())), problem));
   }
@@ -239,8 +240,8 @@ class Reader final : public Fields {
  private:
   static constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
-  // A member of an object, or an item of a member that is a list. Put into words only for messages:
-  // large files have many places and no messages.
+  // A member of an object, or an item of a member that is a list. Converted to text only for
+  // messages, because large files have many places.
   struct Place {
     static constexpr std::size_t kNoItem = static_cast<std::size_t>(-1);
     const char* key;
@@ -292,7 +293,7 @@ class Reader final : public Fields {
       ++level.found;
       return &*found;
     }
-    // A misspelt key explains a missing one better than "missing" does.
+    // A missing key is reported later, because an unknown (misspelt) key explains it better.
     if (Required(about)) missing_.emplace_back(PathOf(Place(key)), about.meaning);
     return nullptr;
   }

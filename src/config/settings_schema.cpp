@@ -14,7 +14,7 @@ constexpr const char* kDraft = "https://json-schema.org/draft/2020-12/schema";
 
 enum class Conditional { kLeftOut, kIncluded };
 
-// What a person hovering over a key wants to read.
+// Text that an editor shows for a key.
 std::string Tooltip(const About& about) {
   std::string text = about.meaning;
   if (*about.unit != '\0') text += fmt::format(" [{}]", about.unit);
@@ -47,8 +47,8 @@ Json EmptyObject() {
           {"additionalProperties", false}};
 }
 
-// Fields that depend on a choice are all there for one kind of walk and all absent for the other:
-// the former knows what may stand in a file, the latter what must.
+// Conditional fields are either all visited or all skipped: the first walk finds the keys that a
+// file may contain, the second those that it must contain.
 class SchemaWriter final : public Fields {
  public:
   SchemaWriter(Conditional conditional, FileKind kind) : conditional_(conditional), kind_(kind) {
@@ -182,7 +182,7 @@ Json Walked(Conditional conditional, FileKind kind, void (*visit)(Fields&)) {
   return writer.Take();
 }
 
-// Of what both walks know, only what the one without conditional fields requires is required.
+// Keeps only those required keys that the walk without conditional fields requires too.
 void TakeRequired(Json& all, const Json& unconditional) {
   if (all.contains("required")) all["required"] = unconditional.at("required");
   if (all.contains("items")) {

@@ -1,5 +1,5 @@
-// JSON Schema (draft 2020-12) of settings, made from the same description as everything else, so
-// that an editor can complete a config file.
+// JSON Schema (draft 2020-12) of settings, generated from the structs' descriptions (settings.h),
+// so that an editor can complete a config file.
 #pragma once
 
 #include "config/json_settings.h"
@@ -13,14 +13,14 @@ void VisitDefaults(Fields& fields) {
   fields.Visit(settings);
 }
 
-// Fields that depend on a choice are allowed whatever is chosen: the strict reader knows better,
-// and checks what no single field can.
+// The schema is more permissive than the strict reader: it allows fields that depend on a choice
+// whatever the choice is, and does not check conditions between fields.
 Json SettingsSchema(void (*visit)(Fields&), FileKind kind = FileKind::kSettings);
 
 // The schema of a whole config file with those settings.
 Json ConfigSchema(const std::string& title, Json settings);
 
-// A config may say in this key where its schema lies; nothing else reads it.
+// Key in which a config may name its schema, for editors; vitruvia ignores its value.
 inline constexpr const char* kSchemaKey = "$schema";
 
 }  // namespace vitruvia

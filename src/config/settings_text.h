@@ -1,4 +1,4 @@
-// How settings are put into words, alike in errors and in explanations.
+// Text for settings, shared by error messages and `vitruvia explain`.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace vitruvia {
 
-// How stored data spell infinite numbers.
+// Infinite numbers in stored data.
 inline constexpr const char* kInfinityText = "Infinity";
 inline constexpr const char* kMinusInfinityText = "-Infinity";
 

@@ -1,27 +1,28 @@
 // Stored data: the JSON files of our own formats, each described by one struct (settings.h) from
-// which it is written and by which it is read. What all of them have in common:
+// which it is written and by which it is read. Common to all formats:
 //
 // Header. "format" and "version" come first. A file of another format or version is refused with
-// one sentence; older versions that a format still reads are brought to the present one first
+// one sentence; older versions that can still be read are first converted to the current one
 // (Upgrade). A file with neither key has version 0: it was written before its format had a version.
 //
-// Keys. Every key must be there unless its description says optional; an unknown key, a wrong type
-// or a value out of range is a DataError that names file, key path, value, what was expected and
-// the nearest valid key. So a file is read completely or not at all.
+// Keys. Every key must be present unless its description says optional; an unknown key, a wrong
+// type or a value out of range is a DataError that names file, key path, value, what was expected
+// and the nearest valid key. So a file is read completely or not at all.
 //
-// Values that are absent are left out, and are never a zero:
+// Absent values are left out of the file; they are never stored as zero:
 //   an optional key            is not in the file where there is no value: NaN, an empty text, list
 //                              or object in memory (readers also take null for a number)
 //   an item of a list          is null in the file and NaN in memory where the description allows
 //                              it, so that the other items keep their places
 //
-// Numbers that are not finite. JSON has none, and the library would write null for them silently:
+// Numbers that are not finite. JSON cannot represent them, and nlohmann_json would silently write
+// null:
 //   infinity                   is the text "Infinity" or "-Infinity", where the description allows
 //                              it (a condition number, say); elsewhere writing it throws
 //   NaN                        only means "absent", as above; elsewhere writing it throws
 //
-// Throwing is std::invalid_argument naming key path and value: the program computed what it must
-// not store. Numbers are written so that reading gives the same bits.
+// The exception is std::invalid_argument naming key path and value: the program computed a value
+// that it must not store. Finite numbers are read back bit for bit.
 #pragma once
 
 #include <filesystem>
@@ -38,13 +39,13 @@
 
 namespace vitruvia {
 
-// A struct of stored data that is a file of its own has `static constexpr StoredFormat kFormat`,
-// and, if it reads older versions that differ, `static void Upgrade(Json& file, int version)`.
+// A struct that is stored as a file has a member `static constexpr StoredFormat kFormat` and, if it
+// can read older versions, `static void Upgrade(Json& file, int version)`.
 struct StoredFormat {
   const char* name;    // "vitruvia-record"
-  int version;         // that is written
-  int oldest_version;  // that is read
-  const char* remedy;  // what to do with an older file, as a command to the user
+  int version;         // the version that is written
+  int oldest_version;  // the oldest version that is read
+  const char* remedy;  // what the user should do with an older file, in the imperative
 };
 
 // The JSON of an object within a file, or of a file without a header.
@@ -53,7 +54,8 @@ Json StoredJson(Struct value) {
   return internal::WriteFields(&value, internal::VisitFields<Struct>);
 }
 
-// Throws, as writing would, if a number cannot be stored; `where` goes before key path and value.
+// Throws the exception that writing would throw if a number cannot be stored; `where` precedes key
+// path and value in its message.
 template <class Struct>
 void RequireStorable(Struct value, const std::string& where) {
   try {
@@ -95,7 +97,7 @@ Struct ReadStored(const std::filesystem::path& file) {
   }
 }
 
-// Of a file without a header.
+// Reads a file without a header.
 template <class Struct>
 Struct ReadStoredObject(const std::filesystem::path& file) {
   const Json json = internal::ReadJsonData(file);

@@ -1,4 +1,4 @@
-// What this build is: for `vitruvia --version` and for every run record.
+// Identity of this build, for `vitruvia --version` and every run record.
 #pragma once
 
 #include <string>
@@ -20,10 +20,10 @@ struct MachineInfo {
 };
 MachineInfo GetMachineInfo();
 
-// Both of the above, as records carry them.
+// Build and machine, as stored in records.
 nlohmann::json Provenance();
-// That and calibration_ms, how fast the machine is at this moment (core/calibration.h): for records
-// of work that was timed just before. Takes some 0.1 s.
+// Provenance() with calibration_ms, the machine's current speed (core/calibration.h), for records
+// of work that has just been timed. Takes about 0.1 s.
 nlohmann::json TimedProvenance();
 
 }  // namespace vitruvia

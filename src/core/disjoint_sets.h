@@ -1,4 +1,4 @@
-// Disjoint sets of 0 … n − 1 that are joined one by one (union-find with path halving).
+// Disjoint sets of the numbers 0 … n − 1 (union-find with path halving).
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ class DisjointSets {
     return member;
   }
 
-  // False if both are in one set already.
+  // Returns false if both were already in the same set.
   bool Join(int a, int b) {
     a = Find(a);
     b = Find(b);

@@ -18,10 +18,10 @@ enum class ExitCode : int {
   kBadConfiguration = 2,  // wrong arguments or a wrong config file
   kBadData = 3,           // a missing, damaged or inconsistent input
   kFailedRun = 4,  // the work itself failed: output not writable, a run that ended in an error
-  kAccuracyRegressed = 5,  // the regression gate's findings: some number is worse than the baseline
-  kSpeedRegressed = 6,     // accuracy holds, but something is slower
-  kNothingMeasured = 7,    // or less than what the baseline holds: nothing is known of the rest
-  kFramesFailed = 8,  // the work is done, but more frames of a run failed than its limit allows
+  kAccuracyRegressed = 5,  // regression gate: some accuracy is worse than the baseline
+  kSpeedRegressed = 6,     // regression gate: accuracy holds, but something is slower
+  kNothingMeasured = 7,    // regression gate: some or all numbers of the baseline were not measured
+  kFramesFailed = 8,  // the work is done, but more frames of a run failed than the limit allows
   kUnsupportedProcessor = 9,  // the processor lacks instructions that the program was built with
   kInterrupted = 130,         // stopped by the user
 };

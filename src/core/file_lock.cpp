@@ -30,8 +30,8 @@ struct flock WholeFile(LockKind kind) {
   throw RunError(fmt::format("{}: cannot be locked: {}", file.string(), std::strerror(error)));
 }
 
-// Does not ask to create a file that is there: in folders such as /tmp the kernel may refuse that
-// for files of other users (fs.protected_regular).
+// Opens an existing file without O_CREAT: in folders such as /tmp the kernel may refuse O_CREAT for
+// files of other users (fs.protected_regular).
 int OpenOrCreate(const fs::path& file) {
   const int descriptor = open(file.c_str(), O_RDWR | O_CLOEXEC);
   if (descriptor >= 0 || errno != ENOENT) return descriptor;
@@ -87,7 +87,8 @@ FileLock& FileLock::operator=(FileLock&& other) noexcept {
 void MakeLockFileForAllUsers(const fs::path& file) {
   std::error_code ignored;
   if (!fs::exists(file, ignored)) {
-    // Under a name of its own first, so that nobody meets the file before its mode is set.
+    // Created under a temporary name first, so that no process opens the file before its mode is
+    // set.
     const fs::path mine = fmt::format("{}.{}", file.string(), getpid());
     const int descriptor = open(mine.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, kLockFileMode);
     if (descriptor < 0) FailToLock(file, errno);

@@ -137,7 +137,8 @@ StagedFolder::~StagedFolder() {
 }
 
 void StagedFolder::Commit() {
-  // The old folder is renamed first and removed last, so that at any time one of the two is whole.
+  // The old folder is renamed first and removed last, so that one of the two is complete at any
+  // time.
   fs::path old = staging_;
   old += kOldEnd;
   std::error_code error;

@@ -11,18 +11,18 @@ namespace vitruvia {
 // DataError naming the file if it cannot be read.
 std::string ReadWholeFile(const std::filesystem::path& file);
 
-// RunError naming the file if it cannot be written; then nothing is left behind.
+// RunError naming the file if it cannot be written; no partial file remains.
 void WriteWholeFile(const std::filesystem::path& file, std::string_view content);
 
-// RunError naming the folder and the reason if it neither exists nor can be made.
+// RunError naming the folder and the reason if it does not exist and cannot be created.
 void MakeFolder(const std::filesystem::path& folder);
 
-// The folder for temporary files: $TMPDIR, or /tmp without it. RunError naming the variable if that
-// is no folder.
+// The folder for temporary files: $TMPDIR, or /tmp if that is not set. RunError naming the variable
+// if it is not a folder.
 std::filesystem::path TemporaryDirectory();
 
-// Removes what a killed process left unfinished beside the destination, a file or a folder. The
-// caller makes sure that no other process is writing the destination.
+// Removes temporary files or folders that a killed process left beside the destination (a file or a
+// folder). The caller ensures that no other process is writing the destination.
 void RemoveUnfinished(const std::filesystem::path& destination);
 
 // A folder that is filled under a temporary name beside its destination and moved there by

@@ -5,8 +5,8 @@
 
 namespace vitruvia {
 
-// With & < > " as entities, and a space for each control character, which XML cannot hold, but line
-// ends and tabs.
+// Writes & < > " as entities and replaces control characters that XML does not allow (all but line
+// ends and tabs) by spaces.
 std::string Escaped(const std::string& text);
 
 }  // namespace vitruvia

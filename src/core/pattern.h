@@ -1,4 +1,4 @@
-// Names chosen by patterns, as in a shell.
+// Matching of names against shell patterns.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@ namespace vitruvia {
 
 // Whether the pattern (* ? [abc]) matches the whole text.
 bool MatchesPattern(const std::string& pattern, const std::string& text);
-// Whether one of the patterns does; a list without patterns stands for all texts.
+// Whether at least one of the patterns matches; an empty list matches every text.
 bool MatchesAny(const std::vector<std::string>& patterns, const std::string& text);
 
 }  // namespace vitruvia

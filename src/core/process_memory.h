@@ -3,12 +3,12 @@
 
 namespace vitruvia {
 
-// What is resident now; 0 where the kernel does not tell.
+// Resident memory now; 0 if the kernel does not report it.
 double ResidentMemory_mb();
-// The most that was resident since the process began or since ForgetPeakMemory.
+// Peak resident memory since the process started or since ForgetPeakMemory.
 double PeakMemory_mb();
-// Gives memory that is free back to the system and lets the peak begin anew from what is resident
-// then. A kernel that refuses keeps the old peak.
+// Returns free memory to the system and resets the peak to what is then resident. If the kernel
+// refuses, the old peak stays.
 void ForgetPeakMemory();
 
 }  // namespace vitruvia

@@ -26,7 +26,8 @@ class Progress {
   double last_drawn_ms_ = -1e9;
 };
 
-// Asks running work to stop at its next call of ThrowIfInterrupted. Safe in a signal handler.
+// Requests that running work stops at its next call of ThrowIfInterrupted. Safe in a signal
+// handler.
 void RequestInterrupt();
 // Throws Error(kInterrupted) after RequestInterrupt.
 void ThrowIfInterrupted();

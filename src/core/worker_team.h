@@ -1,4 +1,4 @@
-// Threads that stay: for loops so short that starting a thread would cost more than the work.
+// A thread pool for loops so short that starting threads would cost more than the work.
 #pragma once
 
 #include <algorithm>
@@ -24,8 +24,8 @@ class WorkerTeam {
   // Calls body(begin, end) for the ranges 0 … grain, grain … 2·grain, … of 0 … count, each once, in
   // any order and on any thread. The ranges depend on count and grain alone: a sum is the same for
   // any number of threads if each range keeps its own part and the parts are added in order. No
-  // memory is allocated. An exception of a body is thrown again here, one of them if there are
-  // several; the other ranges are carried out all the same.
+  // memory is allocated. If bodies throw, one of their exceptions is rethrown here, after all other
+  // ranges have run.
   template <class Body>
   void For(int count, int grain, const Body& body) {
     Run(count, grain, &body, [](const void* erased, int begin, int end) {
@@ -33,8 +33,8 @@ class WorkerTeam {
     });
   }
 
-  // The same in at most kRanges ranges: so many that threads of unequal speed finish together, so
-  // few that a range is worth its start.
+  // The same in at most kRanges ranges: enough that threads of unequal speed finish together, and
+  // few enough that the overhead of a range is small.
   template <class Body>
   void For(int count, const Body& body) {
     For(count, std::max(1, (count + kRanges - 1) / kRanges), body);
@@ -49,14 +49,13 @@ class WorkerTeam {
   bool Enter();
   void TakeRanges();
 
-  // The loop at hand: written while no helper is in it.
+  // The current loop: written only while no helper is inside.
   const void* body_ = nullptr;
   Call call_ = nullptr;
   int count_ = 0, grain_ = 1;
   std::atomic<int> next_{0};  // begin of the next range to be taken
   // Helpers in the loop, plus kClosed while none may enter. The caller closes a loop when all its
-  // ranges are taken, so a helper that comes late, its core being busy elsewhere, is not waited
-  // for.
+  // ranges are taken, so it does not wait for a helper that arrives late because its core was busy.
   static constexpr int kClosed = 1 << 16;
   std::atomic<int> helpers_inside_{kClosed};
   std::atomic<unsigned> generation_{0};

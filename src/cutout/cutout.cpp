@@ -16,7 +16,7 @@ const FollowedPerson& Person(const std::vector<FollowedPerson>& people, int numb
   return people[static_cast<std::size_t>(number - 1)];
 }
 
-// Numbers of people, the most wanted first.
+// Numbers of people, in descending order of preference.
 std::vector<int> Ranked(const std::vector<FollowedPerson>& people, PersonChoice choose) {
   std::vector<int> order;
   for (std::size_t i = 0; i < people.size(); ++i) {
@@ -42,8 +42,8 @@ std::vector<double> AreasOf(const std::vector<FollowedPerson>& people, const Cho
   return areas;
 }
 
-// The median area of the frames round this one, without it and without those that are empty; 0
-// where there are none.
+// The median area of the neighbouring frames, without this frame and without empty ones; 0 if there
+// are none.
 double AreaRound(const std::vector<double>& areas, std::size_t frame, int window) {
   const auto reach = static_cast<std::size_t>(window);
   std::vector<double> near;

@@ -1,9 +1,9 @@
-// A person cut out of a depth recording.
+// Segmentation of a person in a depth recording.
 //
-//   LearnRoom (room.h)      from sampled frames: background, noise, floor
-//   PiecesOf                frame by frame, in any order and on any thread
-//   PeopleFollower          (following.h) frame by frame, in order
-//   ChoosePerson            who it is, once all frames are known
+//   LearnRoom (room.h)            from sampled frames: background, noise, floor
+//   PiecesOf                      frame by frame, in any order and on any thread
+//   PeopleFollower (following.h)  frame by frame, in order
+//   ChoosePerson                  selects the person after the last frame
 #pragma once
 
 #include <cstdint>
@@ -18,14 +18,14 @@ namespace vitruvia {
 // The pieces of one frame's foreground.
 Pieces PiecesOf(const DepthImage& depth, const Room& room, const CutoutSettings& settings);
 
-// The chosen person. Somebody who leaves and comes back has several numbers: people who are never
-// seen together with one already chosen are taken for the same.
+// The chosen person. A person who leaves and comes back has several numbers: people who are never
+// seen in the same frame as one already chosen are assumed to be the same person.
 struct ChosenPerson {
   std::vector<int> numbers;  // from 1, the first is the one that the settings choose
 };
 
-// Nothing where nobody was seen. `at_pixel`: who is at the pixel of the settings, 0 for nobody;
-// used by PersonChoice::kPixel alone.
+// Nothing if nobody was seen. `at_pixel`: number of the person at the pixel of the settings, 0 for
+// nobody; used only with PersonChoice::kPixel.
 std::optional<ChosenPerson> ChoosePerson(const std::vector<FollowedPerson>& people,
                                          const PersonSettings& settings, int at_pixel);
 
@@ -37,11 +37,11 @@ struct UnsureFrame {
   std::string why;
 };
 
-// What is known of the cut after the last frame.
+// Summary of the cutout after the last frame.
 struct CutoutReport {
   int frames = 0, frames_without_person = 0;
   int area_jumps = 0;
-  double pixel_share = 0.0;  // of the image, mean over the frames with the person
+  double pixel_share = 0.0;  // of the image; mean over the frames that contain the person
   double area_m2 = 0.0;      // median
   std::vector<UnsureFrame> unsure;
 };

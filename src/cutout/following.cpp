@@ -113,7 +113,8 @@ void PeopleFollower::AssignByOverlap(const std::vector<std::vector<Claim>>& clai
   }
 }
 
-// Pieces too small for a person belong to whom they are near: an arm behind which the body goes on.
+// Pieces too small for a person are assigned to a near person: for example an arm separated from
+// its body by an occluder.
 void PeopleFollower::AssignParts(const Pieces& pieces) {
   std::vector<std::size_t> bodies;
   for (std::size_t p = 0; p < owners_.size(); ++p) {
@@ -132,7 +133,7 @@ void PeopleFollower::AssignParts(const Pieces& pieces) {
   }
 }
 
-// Somebody who moved so far that nothing overlaps, or was hidden for a while.
+// Reassigns people who moved so far that nothing overlaps, or who were hidden for some time.
 void PeopleFollower::FindLostAgain(const Pieces& pieces) {
   for (int person = 1; person <= static_cast<int>(people_.size()); ++person) {
     if (IsSeenNow(person) || !IsHere(person)) continue;

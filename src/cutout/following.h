@@ -1,4 +1,4 @@
-// People followed through a recording: which piece of each frame is whose.
+// Tracks people through a recording: assigns the pieces of each frame to people.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,12 @@
 
 namespace vitruvia {
 
-// What is known of one person after the last frame in which they were seen.
+// One person's history up to the last frame in which they were seen.
 struct FollowedPerson {
   std::vector<int> frames;       // in which they were seen
   std::vector<double> areas_m2;  // in each of them
   std::vector<double> depths_m;  // mean, in each of them
-  std::vector<int> touching;     // frames in which somebody else was one piece with them
+  std::vector<int> touching;     // frames in which they shared a piece with somebody else
 
   double TotalArea() const;
   double MeanDepth() const;
@@ -24,8 +24,8 @@ class PeopleFollower {
  public:
   PeopleFollower(const Room& room, const CutoutSettings& settings, double fps);
 
-  // Frames in their order. The result holds the number of the person at each pixel, from 1; 0:
-  // nobody. A person who left and comes back has a new number.
+  // To be called with the frames in order. The result holds the number of the person at each pixel,
+  // from 1; 0: nobody. A person who left and comes back gets a new number.
   Image<std::uint8_t> Follow(const DepthImage& depth, const Pieces& pieces);
 
   const std::vector<FollowedPerson>& people() const { return people_; }

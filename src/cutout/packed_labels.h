@@ -1,4 +1,4 @@
-// Label images packed by runs, to hold those of a whole recording in memory.
+// Run-length encoding of label images, to keep those of a whole recording in memory.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace vitruvia {
 
 struct PackedLabels {
   struct Run {
-    int pixels = 0;  // row by row
+    int pixels = 0;  // in row-major order
     std::uint8_t label = 0;
   };
   int width = 0, height = 0;

@@ -1,4 +1,4 @@
-// Foreground pixels that hang together in three dimensions.
+// Connected components of foreground pixels in three dimensions.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace vitruvia {
 
 struct Piece {
   int pixels = 0;
-  double area_m2 = 0.0;  // each pixel's square at its depth
+  double area_m2 = 0.0;  // sum of each pixel's footprint at its depth
   double mean_depth_m = 0.0;
   Eigen::AlignedBox3f box;                  // camera frame
   float lowest_m = 0.0f, highest_m = 0.0f;  // along the room's vertical
@@ -21,18 +21,18 @@ struct Piece {
 
 struct Pieces {
   Image<std::int16_t> labels;  // 0: none; else the number of the piece, from 1
-  std::vector<Piece> pieces;   // piece i has the label i + 1; the largest first
+  std::vector<Piece> pieces;   // piece i has label i + 1; largest first
 
   const Piece& Labelled(int label) const { return pieces[static_cast<std::size_t>(label - 1)]; }
 };
 
-// Two foreground pixels hang together if they are neighbours in a row or column, or have nothing
-// between them but pixels that are not measured or in front of them, and differ little in depth.
+// Two foreground pixels are connected if they differ little in depth and are either neighbours in a
+// row or column, or separated in it only by pixels that are not measured or lie in front of them.
 Pieces FindPieces(const DepthImage& depth, const MaskImage& foreground, const Room& room,
                   const CutoutSettings& settings);
 
-// Measures the pieces that the labels say and sorts them by area; pieces that are too small are
-// dropped, with their labels.
+// Computes the pieces of the given labels and sorts them by area; pieces that are too small are
+// removed together with their labels.
 void MeasurePieces(const DepthImage& depth, const Room& room, const CutoutSettings& settings,
                    Pieces& pieces);
 

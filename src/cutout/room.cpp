@@ -105,8 +105,8 @@ std::optional<FloorPlane> PlaneThrough(const Vector3f& a, const Vector3f& b, con
   return plane;
 }
 
-// How far a point of the floor may seem to lie from it: noise along the ray, seen at the angle of
-// the ray with the floor.
+// Standard deviation of a floor point's height: the noise along the ray, projected on the floor's
+// normal.
 float FloorNoise(const FloorPlane& floor, const Vector3f& point, double noise_at_1m_m) {
   return static_cast<float>(noise_at_1m_m) * point.z() * std::abs(floor.up.dot(point));
 }

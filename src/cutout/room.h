@@ -1,4 +1,5 @@
-// What stands still in a recording, by which a person is told from the room.
+// The static scene of a recording: background, noise and floor, which separate a person from the
+// room.
 #pragma once
 
 #include <optional>
@@ -15,7 +16,7 @@ namespace vitruvia {
 struct FloorPlane {
   Vector3f up = -Vector3f::UnitY();  // unit length
   float height_m = 0.0f;             // of the camera above the floor
-  double share = 0.0;                // of the sampled points that lie in it
+  double share = 0.0;                // share of the sampled points that lie in the plane
 
   float HeightOf(const Vector3f& point) const { return up.dot(point) + height_m; }
 };
@@ -25,7 +26,7 @@ struct Room {
   // Depth of the room behind each pixel, metres: 0 where it is not known, infinite where it lies
   // beyond the sensor's range.
   DepthImage background;
-  double noise_at_1m_m = 0.0;  // standard deviation of depth; grows with the square of depth
+  double noise_at_1m_m = 0.0;  // standard deviation of depth at 1 m; grows with the square of depth
   std::optional<FloorPlane> floor;
 
   float NoiseAt(float depth_m) const {
@@ -33,8 +34,8 @@ struct Room {
   }
 };
 
-// From frames of the recording, evenly spread; `empty`: frames without a person, only of
-// BackgroundSource::kEmptyFrames. Frames that hold no measurement do not count.
+// Learns the room from evenly spaced frames of the recording. `empty`: frames without a person,
+// used only with BackgroundSource::kEmptyFrames. Frames without any measurement are ignored.
 Room LearnRoom(const std::vector<DepthImage>& frames, const std::vector<DepthImage>& empty,
                const PinholeCamera& camera, const CutoutSettings& settings);
 

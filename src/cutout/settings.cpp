@@ -5,30 +5,30 @@
 namespace vitruvia {
 
 void BackgroundSettings::Describe(Fields& f) {
-  f.Choice(
-      "source", source,
-      {{"none", BackgroundSource::kNone},
-       {"recording", BackgroundSource::kRecording},
-       {"empty_frames", BackgroundSource::kEmptyFrames}},
-      {.meaning = "where the room's depth comes from: nowhere, the recording itself (each pixel "
-                  "must be free of the person for some time), or frames without a person",
-       .origin = Origin::kInput});
+  f.Choice("source", source,
+           {{"none", BackgroundSource::kNone},
+            {"recording", BackgroundSource::kRecording},
+            {"empty_frames", BackgroundSource::kEmptyFrames}},
+           {.meaning = "source of the room's depth: none, the recording itself (each pixel must be "
+                       "free of the person for some time), or frames without a person",
+            .origin = Origin::kInput});
   f.Number("far_share", far_share,
-           {.meaning = "quantile of a pixel's depths over the recording that is taken for the room",
+           {.meaning =
+                "quantile of a pixel's depths over the recording that is used as the room's depth",
             .min = 0.5,
             .max = 1.0,
             .origin = Origin::kGuessed,
             .source = "a person who moves covers a pixel for less than nine tenths of the time"});
   f.Number(
       "seen_share", seen_share,
-      {.meaning = "share of the frames in which a pixel must be measured for its background to "
-                  "be known; seen less often, it lies beyond the sensor's range",
+      {.meaning = "share of the frames in which a pixel must be measured for its background to be "
+                  "known; a pixel measured less often is assumed to lie beyond the sensor's range",
        .min = 0.0,
        .max = 1.0,
        .origin = Origin::kGuessed});
   f.Number("margin_m", margin_m,
-           {.meaning = "least depth in front of the background that makes a pixel foreground; the "
-                       "sensor's noise raises it",
+           {.meaning = "distance in front of the background from which a pixel is foreground; the "
+                       "sensor's noise increases it",
             .unit = "m",
             .min = 0.0,
             .max = 1.0,
@@ -42,78 +42,76 @@ void BackgroundSettings::Describe(Fields& f) {
 }
 
 void FloorSettings::Describe(Fields& f) {
-  f.Flag("remove", remove, {.meaning = "whether a floor is looked for and removed"});
+  f.Flag("remove", remove, {.meaning = "whether a floor is detected and removed"});
   f.Number("tilt_deg", tilt_deg,
            {.meaning = "largest angle between the floor's normal and the image's upright",
             .unit = "deg",
             .min = 0.0,
             .max = 80.0,
             .origin = Origin::kGuessed});
-  f.Number(
-      "within_m", within_m,
-      {.meaning = "distance from the plane up to which a point supports it; the sensor's noise "
-                  "raises it",
-       .unit = "m",
-       .min = 1e-4,
-       .max = 0.2,
-       .origin = Origin::kGuessed});
+  f.Number("within_m", within_m,
+           {.meaning = "distance from the floor's plane up to which a point supports it; the "
+                       "sensor's noise increases it",
+            .unit = "m",
+            .min = 1e-4,
+            .max = 0.2,
+            .origin = Origin::kGuessed});
   f.Number("least_share", least_share,
-           {.meaning = "share of the points that a floor must hold",
+           {.meaning = "least share of the points that must lie in a floor's plane",
             .min = 0.0,
             .max = 1.0,
             .origin = Origin::kGuessed});
   f.Number("below_share", below_share,
-           {.meaning = "share of the points that may lie below a floor; a table top has more",
+           {.meaning = "largest share of the points that may lie below a floor; below a table top "
+                       "there are more",
             .min = 0.0,
             .max = 1.0,
             .origin = Origin::kGuessed});
-  f.Integer(
-      "trials", trials,
-      {.meaning = "planes through three random points of the lower half that are tried; most are "
-                  "not level and cost nothing",
-       .min = 1,
-       .max = 10000000,
-       .origin = Origin::kGuessed});
+  f.Integer("trials", trials,
+            {.meaning = "number of planes through three random points of the lower half that are "
+                        "tried; most are rejected at once because they are not level",
+             .min = 1,
+             .max = 10000000,
+             .origin = Origin::kGuessed});
   f.Integer("points", points,
-            {.meaning = "points of the sampled frames that a plane is held against",
+            {.meaning = "number of points of the sampled frames on which a plane is tested",
              .min = 100,
              .max = 10000000,
              .origin = Origin::kGuessed});
   f.Number("margin_m", margin_m,
            {.meaning = "height up to which a point is floor where no background is known; the "
-                       "sensor's noise raises it",
+                       "sensor's noise increases it",
             .unit = "m",
             .min = 0.0,
             .max = 0.2,
             .origin = Origin::kGuessed});
   f.Number("certain_m", certain_m,
-           {.meaning = "height above which a point is certainly no floor",
+           {.meaning = "height above which a point is certainly not floor",
             .unit = "m",
             .min = 0.0,
             .max = 1.0,
             .origin = Origin::kGuessed});
-  f.Number(
-      "reach_m", reach_m,
-      {.meaning = "distance from a point certainly above the floor up to which lower points are "
-                  "kept: a foot's",
-       .unit = "m",
-       .min = 0.0,
-       .max = 1.0,
-       .origin = Origin::kGuessed});
+  f.Number("reach_m", reach_m,
+           {.meaning = "distance from a point certainly above the floor up to which lower points "
+                       "are kept, such as those of a foot",
+            .unit = "m",
+            .min = 0.0,
+            .max = 1.0,
+            .origin = Origin::kGuessed});
 }
 
 void PieceSettings::Describe(Fields& f) {
   f.Number("step_m", step_m,
            {.meaning = "largest difference in depth between neighbouring pixels of one piece; the "
-                       "sensor's noise raises it",
+                       "sensor's noise increases it",
             .unit = "m",
             .min = 1e-3,
             .max = 1.0,
             .origin = Origin::kGuessed});
   f.Number("gap_m", gap_m,
-           {.meaning = "widest gap in a row or column of the image across which a piece goes on: "
-                       "where nothing is measured or something stands in front, never where "
-                       "something behind is seen",
+           {.meaning = "widest gap in a row or column of the image across which a piece continues; "
+                       "a gap consists of pixels that are not measured or lie in front, never of "
+                       "pixels that lie behind",
             .unit = "m",
             .min = 0.0,
             .max = 1.0,
@@ -128,25 +126,25 @@ void PieceSettings::Describe(Fields& f) {
 
 void PersonSizeSettings::Describe(Fields& f) {
   f.Number("least_height_m", least_height_m,
-           {.meaning = "least extent of a person along the vertical",
+           {.meaning = "minimum height of a person",
             .unit = "m",
             .min = 0.0,
             .max = 3.0,
             .origin = Origin::kGuessed});
   f.Number("most_height_m", most_height_m,
-           {.meaning = "largest extent of a person along the vertical, arms raised",
+           {.meaning = "maximum height of a person, with raised arms",
             .unit = "m",
             .min = 0.0,
             .max = 5.0,
             .origin = Origin::kGuessed});
   f.Number("most_width_m", most_width_m,
-           {.meaning = "largest extent of a person across the view, arms spread",
+           {.meaning = "maximum width of a person across the view, with spread arms",
             .unit = "m",
             .min = 0.0,
             .max = 5.0,
             .origin = Origin::kGuessed});
   f.Number("least_area_m2", least_area_m2,
-           {.meaning = "least area that is seen of a person",
+           {.meaning = "minimum visible area of a person",
             .unit = "m²",
             .min = 0.0,
             .max = 2.0,
@@ -154,18 +152,21 @@ void PersonSizeSettings::Describe(Fields& f) {
 }
 
 void TouchingSettings::Describe(Fields& f) {
-  f.Number("head_drop_m", head_drop_m,
-           {.meaning = "height by which a head sticks out of the outline between it and the next",
-            .unit = "m",
-            .min = 0.01,
-            .max = 1.0,
-            .origin = Origin::kGuessed});
-  f.Number("least_head_m2", least_head_m2,
-           {.meaning = "least area of a head above that height; a raised hand has less",
-            .unit = "m²",
-            .min = 0.0,
-            .max = 1.0,
-            .origin = Origin::kGuessed});
+  f.Number(
+      "head_drop_m", head_drop_m,
+      {.meaning = "height by which a head must rise above the outline between it and the next head",
+       .unit = "m",
+       .min = 0.01,
+       .max = 1.0,
+       .origin = Origin::kGuessed});
+  f.Number(
+      "least_head_m2", least_head_m2,
+      {.meaning =
+           "minimum area of a head above the height given by head_drop_m; a raised hand has less",
+       .unit = "m²",
+       .min = 0.0,
+       .max = 1.0,
+       .origin = Origin::kGuessed});
   f.Number("apart_m", apart_m,
            {.meaning = "least horizontal distance between two heads",
             .unit = "m",
@@ -201,14 +202,15 @@ void FollowingSettings::Describe(Fields& f) {
             .max = 1.0,
             .origin = Origin::kGuessed});
   f.Number("attach_m", attach_m,
-           {.meaning = "distance from a person's box up to which a piece too small for a person is "
-                       "taken for a part of that person",
+           {.meaning = "distance from a person's bounding box up to which a piece too small for a "
+                       "person is assigned to that person",
             .unit = "m",
             .min = 0.0,
             .max = 1.0,
             .origin = Origin::kGuessed});
   f.Number("speed_m_s", speed_m_s,
-           {.meaning = "fastest person: how far away somebody who was lost is looked for",
+           {.meaning = "maximum speed of a person, which limits how far from the last place a lost "
+                       "person is searched",
             .unit = "m/s",
             .min = 0.0,
             .max = 20.0,
@@ -220,17 +222,19 @@ void FollowingSettings::Describe(Fields& f) {
             .max = 100.0,
             .origin = Origin::kGuessed});
   f.Number("area_factor", area_factor,
-           {.meaning = "ratio to the median area of the frames before and after, either way, from "
-                       "which a frame is reported as a jump in area",
+           {.meaning = "factor by which a frame's area must exceed or fall below the median area "
+                       "of the frames before and after to be reported as a jump in area",
             .min = 1.0,
             .max = 10.0,
             .origin = Origin::kGuessed});
-  f.Integer("area_window", area_window,
-            {.meaning = "frames before and after over which that median area is taken",
-             .unit = "frames",
-             .min = 1,
-             .max = 1000,
-             .origin = Origin::kGuessed});
+  f.Integer(
+      "area_window", area_window,
+      {.meaning =
+           "number of frames before and after over which the median area for area_factor is taken",
+       .unit = "frames",
+       .min = 1,
+       .max = 1000,
+       .origin = Origin::kGuessed});
 }
 
 void PersonSettings::Describe(Fields& f) {
@@ -239,8 +243,8 @@ void PersonSettings::Describe(Fields& f) {
       {{"largest", PersonChoice::kLargest},
        {"nearest", PersonChoice::kNearest},
        {"pixel", PersonChoice::kPixel}},
-      {.meaning = "which of several people is kept: the one of the largest area, summed over "
-                  "the frames; the one nearest to the camera on average; or the one at a pixel"});
+      {.meaning = "selection among several people: the one with the largest area, summed over the "
+                  "frames; the one nearest to the camera on average; or the one at a pixel"});
   f.Integer("frame", frame, {.meaning = "frame of the chosen pixel", .min = 0, .max = 1e6});
   f.Integer("u", u,
             {.meaning = "column of the chosen pixel in the sequence's images",
@@ -253,7 +257,7 @@ void PersonSettings::Describe(Fields& f) {
              .min = 0,
              .max = 1e5});
   f.Section("size", size, {.meaning = "sizes that a piece must have to be a person"});
-  f.Section("touching", touching, {.meaning = "how people who touch are told apart"});
+  f.Section("touching", touching, {.meaning = "separation of people who touch"});
 }
 
 void CutoutSettings::Describe(Fields& f) {
@@ -277,13 +281,15 @@ void CutoutSettings::Describe(Fields& f) {
             .max = 0.1,
             .origin = Origin::kPaper,
             .source = "Khoshelham and Elberink 2012, Kinect v1: 1.43 mm at 1 m"});
-  f.Section("background", background, {.meaning = "the room behind the person"});
+  f.Section("background", background, {.meaning = "background: the room behind the person"});
   f.Section("floor", floor, {.meaning = "the floor under the person"});
-  f.Section("pieces", pieces, {.meaning = "what hangs together in three dimensions"});
+  f.Section("pieces", pieces,
+            {.meaning = "connected components of the foreground in three dimensions"});
   f.Section("person", person, {.meaning = "the person that is kept"});
   f.Section("following", following, {.meaning = "how people are followed from frame to frame"});
-  f.Integer("seed", seed,
-            {.meaning = "seed of the points that the floor is tried on", .min = 0, .max = 1e9});
+  f.Integer(
+      "seed", seed,
+      {.meaning = "seed of the random points in the search for the floor", .min = 0, .max = 1e9});
 }
 
 std::string CutoutSettings::Problem() const {

@@ -1,4 +1,4 @@
-// How a person is cut out of depth images: every threshold.
+// Settings of the segmentation of a person in depth images.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 namespace vitruvia {
 
 enum class BackgroundSource {
-  kNone,         // only range and floor tell the person from the room
-  kRecording,    // what a pixel shows at its farthest during the recording
-  kEmptyFrames,  // what it shows while nobody is there
+  kNone,         // only range and floor separate the person from the room
+  kRecording,    // the farthest depth that a pixel shows during the recording
+  kEmptyFrames,  // the depth that a pixel shows in frames without a person
 };
 
 struct BackgroundSettings {
@@ -38,7 +38,7 @@ struct FloorSettings {
   void Describe(Fields& fields);
 };
 
-// Pieces: what hangs together in three dimensions.
+// Connected components in three dimensions (pieces.h).
 struct PieceSettings {
   double step_m = 0.06;
   double gap_m = 0.25;
@@ -47,7 +47,7 @@ struct PieceSettings {
   void Describe(Fields& fields);
 };
 
-// What size a piece must have to be taken for a person.
+// Size limits of a piece that may be a person.
 struct PersonSizeSettings {
   double least_height_m = 0.5, most_height_m = 2.4;
   double most_width_m = 2.2;
@@ -56,7 +56,7 @@ struct PersonSizeSettings {
   void Describe(Fields& fields);
 };
 
-// How people who are one piece are told apart.
+// Separation of people who form one piece.
 struct TouchingSettings {
   double head_drop_m = 0.15;
   double least_head_m2 = 0.015;
@@ -82,7 +82,7 @@ struct FollowingSettings {
 enum class PersonChoice {
   kLargest,  // area, summed over the frames
   kNearest,  // mean depth
-  kPixel,    // who is seen at a pixel of a frame
+  kPixel,    // the person at a given pixel of a frame
 };
 
 struct PersonSettings {

@@ -1,4 +1,4 @@
-// The sheet of pictures that shows a cut.
+// A contact sheet that shows the cutout.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace vitruvia {
 
-// One picture of a sheet: depth in grey, the chosen person green, other people in other colours
-// with their numbers, a red border where the frame is unsure.
+// One picture of a sheet: depth in grey, the chosen person in green, other people in other colours
+// with their numbers, and a red border if the frame is unsure.
 struct SheetFrame {
   int frame = 0;
   DepthImage depth;

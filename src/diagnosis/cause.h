@@ -1,17 +1,17 @@
-// Why a joint is not where it should be.
+// Causes of a joint's position error.
 #pragma once
 
 #include <string_view>
 
 namespace vitruvia {
 
-// In the order in which they are asked: the first that holds is the cause.
+// In the order in which they are tested: the first that applies is the cause.
 enum class Cause {
   kSmall,       // the error is small: there is nothing to explain
-  kFacing,      // the estimate has left and right the wrong way round
+  kFacing,      // left and right are exchanged in the estimate
   kStart,       // the body has not been found since the first frame
   kOutOfView,   // the joint is outside the image
-  kHidden,      // something stands between camera and joint
+  kHidden,      // another surface lies between camera and joint
   kNoData,      // the frame holds no measurement
   kFewPairs,    // too few pixels lie on the limb
   kFast,        // the joint has moved far since the frame before

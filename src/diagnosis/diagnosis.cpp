@@ -100,7 +100,7 @@ Cause CauseOf(double error_m, const JointEvidence& joint, const FrameEvidence& f
   return state.lost ? Cause::kLost : Cause::kUnknown;
 }
 
-// An error that has lasted since a frame in which it had a cause keeps that cause.
+// An error without a cause of its own that continues from the last frame keeps that frame's cause.
 void CarryOn(const JointCauses& before, JointCauses& causes) {
   for (int joint = 0; joint < kBoneCount; ++joint) {
     const bool unexplained = causes[joint] == Cause::kLost || causes[joint] == Cause::kUnknown;
@@ -129,7 +129,7 @@ void AddErrors(const JointErrors17& errors_m, const JointCauses& causes, CauseSu
     sums[static_cast<std::size_t>(causes[joint])] += errors_m[joint];
 }
 
-// Small errors are no cause.
+// The cause with the largest sum of errors, small errors excepted.
 Cause LargestCause(const CauseSums& sums) {
   const auto largest = std::max_element(sums.begin() + 1, sums.end());
   return *largest > 0.0 ? static_cast<Cause>(largest - sums.begin()) : Cause::kSmall;
@@ -157,7 +157,7 @@ std::string ReasonOf(const ErrorEvent& event, const std::vector<JointErrors17>& 
   return fmt::format("{}{}: up to {:.2f} m", name, more, most_m[worst]);
 }
 
-// Round each of the worst frames, those that are nearly as bad.
+// Intervals round the worst frames, of frames with nearly as large an error.
 std::vector<ErrorEvent> FindEvents(const std::vector<JointErrors17>& errors_m,
                                    const std::vector<JointCauses>& causes, double total_m) {
   const auto count = static_cast<int>(errors_m.size());

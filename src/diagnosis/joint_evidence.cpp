@@ -63,7 +63,7 @@ Segments BoneSegments(const JointPositions& joints) {
   return segments;
 }
 
-// The bone whose turning moves the joint.
+// The bone that moves the joint.
 int LimbOf(int joint) { return std::max(0, Bones()[joint].parent); }
 
 bool AreNeighbours(int a, int b) {
@@ -108,7 +108,7 @@ JointPositions TrueJoints(const SequenceReader& sequence, const JointTruth& trut
   return joints;
 }
 
-// The depth that the camera would have measured without noise, where the true surface is known.
+// Noise-free depth, rendered from the true surface if there is one.
 class CleanDepth {
  public:
   explicit CleanDepth(const SequenceReader& sequence)
@@ -128,7 +128,7 @@ class CleanDepth {
   ZBuffer zbuffer_;
 };
 
-// Which bone's flesh a point is nearest to; −1 if it is near none.
+// The bone whose surface is nearest to a point; −1 if none is near.
 int BoneAt(const Vector3d& point, const Segments& segments,
            const std::array<double, kBoneCount>& radii_m) {
   int nearest = -1;

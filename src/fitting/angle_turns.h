@@ -1,4 +1,4 @@
-// How the bones turn when a joint angle changes.
+// Derivatives of the bones' rotations with respect to the joint angles.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace vitruvia {
 
-// A turn of one bone against its parent that an angle makes, per radian of the angle.
+// The rotation of one bone relative to its parent per radian of one angle.
 struct AngleTurn {
   int angle, bone;
   Vector3d axis;  // angular velocity, parent's frame

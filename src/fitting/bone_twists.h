@@ -1,12 +1,12 @@
-// How each bone moves with each rigid parameter of a PosedBody.
+// Twist of each bone per rigid parameter of a PosedBody.
 #pragma once
 
 #include "fitting/angle_turns.h"
 
 namespace vitruvia {
 
-// For each bone a column per parameter up to PosedBody::kShape: angular velocity, and velocity of
-// the bone's point at the world's origin.
+// For each bone one column per parameter before PosedBody::kShape: angular velocity, then velocity
+// of the point of the bone that is at the world origin.
 template <class Scalar>
 using BoneTwists = std::array<Eigen::Matrix<Scalar, 6, Eigen::Dynamic>, kBoneCount>;
 

@@ -41,8 +41,7 @@ void Keep(std::vector<Candidate>& candidates, int most, double (*cost)(const Can
   candidates = std::move(kept);
 }
 
-// How unusual the arms' pose is: the sum of squared deviations of captured motion, in units of the
-// standard deviation.
+// Squared Mahalanobis distance of the arms' pose from captured motion.
 double UnusualnessOfArms(const AngleVector& angles_deg) {
   JointPose joints;
   joints.local_rotations.fill(Matrix3<double>::Identity());
@@ -150,8 +149,8 @@ class Searcher {
     pose.distance = search_.fine->Measure(*search_.fine_target, pose.state, limits_);
   }
 
-  // Of the arms' poses that explain the frame as well as those found, the likeliest: both held
-  // alike; else the more usual one of those found and of an arm that hangs.
+  // The most likely of the arms' poses that explain the frame about as well as the one found: both
+  // arms alike; otherwise the more usual one of the found pose and a hanging arm.
   FoundPose WithLikelyArms(const FoundPose& found) {
     constexpr double kAsWell = 1.05;  // share of the distance
     const double most_m = kAsWell * found.distance.mean_m();

@@ -1,8 +1,9 @@
-// Finds a body's pose in a depth frame without a start that is known.
+// Finds a body's pose in a depth frame without a known start.
 //
-// Hypotheses are compared by rendering alone, the best ones varied (fitting/pose_variation.h),
-// fitted, varied and fitted again, with fewer at each step. An arm that the frame does not show is
-// put where it is most likely: as the other arm is held, if the frame allows it.
+// All hypotheses are compared by rendering alone; then the best ones are varied
+// (fitting/pose_variation.h), fitted, varied and fitted again, with fewer hypotheses at each step.
+// An arm that is not visible in the frame is given the pose of the other arm if the frame does not
+// contradict it.
 #pragma once
 
 #include "fitting/depth_target.h"
@@ -10,7 +11,7 @@
 
 namespace vitruvia {
 
-// The person as the search sees it, coarse and fine, and whether its shape is fitted too.
+// The body and the target at coarse and fine resolution, and whether the shape is fitted too.
 struct DepthSearch {
   PoseFit* coarse = nullptr;
   PoseFit* fine = nullptr;

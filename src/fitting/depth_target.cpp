@@ -134,7 +134,7 @@ void DepthTarget::FindVisible(const PosedBody& body) {
     const std::optional<Pixel> pixel = cell_camera_.PixelOf(p);
     if (!pixel) continue;
     const float z = rendered(pixel->u, pixel->v);
-    // A cell whose centre the body misses is on its outline.
+    // A cell whose centre the body does not cover is on its outline.
     if (z > 0.0f && p.z() > z + kVisibleWithin_m) continue;
     visible_.push_back(static_cast<int>(v));
     visible_positions_.push_back(p);

@@ -1,9 +1,9 @@
-// A depth frame as the target of a fit. World frame: the camera's.
+// A depth frame as the target of a fit. The world frame is the camera's frame.
 //
-// The frame is seen in cells of some pixels, so that noise and lost pixels at edges matter little.
-// A vertex that is visible on the rendered body may lie behind what was measured (something hides
-// it: it counts for nothing); in front of it, or where nothing was measured, it contradicts the
-// frame.
+// The frame is reduced to cells of several pixels, which reduces the effect of noise and of missing
+// pixels at edges. A visible vertex of the rendered body that lies behind the measured surface is
+// hidden by something and ignored; a vertex in front of it, or where nothing was measured,
+// contradicts the frame.
 #pragma once
 
 #include "fitting/fit_target.h"
@@ -14,9 +14,10 @@
 namespace vitruvia {
 
 struct DepthTargetSettings {
-  int columns = 80;   // cells in a row of the image
-  int points = 3000;  // at most, of the frame, that the body looks for
-  int seekers = 500;  // of them, that look for the body
+  int columns = 80;   // number of cells in a row of the image
+  int points = 3000;  // maximum number of the frame's points to which the body's vertices are
+                      // paired
+  int seekers = 500;  // number of these points that are themselves paired to the body
   float max_depth_m = 8.0;
 };
 
@@ -29,14 +30,15 @@ class DepthTarget final : public FitTarget {
   double height_m() const { return double{BoundingBox(points_.points).sizes().y()}; }
   void FindPairs(const PosedBody& body, double cutoff_m, std::vector<FitPair>& pairs) override;
   MutualDistance Measure(const PosedBody& body, const NearFar& limits) override;
-  // Mean over the measured cells of how far the rendered body is from them along the ray, truncated
-  // at far_m. A cell that only body or frame covers counts as far. Much quicker than Measure().
+  // Mean over the measured cells of the distance to the rendered body along the ray, truncated at
+  // far_m. A cell that only the body or only the frame covers counts as far_m. Much faster than
+  // Measure().
   double ImageDistance(const PosedBody& body, double far_m);
   Vector3d Center() const override { return centroid_; }
   Vector3d VisibleCenter(const PosedBody& body) override;
 
  private:
-  // What the frame says of a vertex that is visible on the body.
+  // Evidence of the frame about a vertex that is visible on the rendered body.
   enum class Evidence { kSurface, kHidden, kContradicted };
 
   void FindVisible(const PosedBody& body);

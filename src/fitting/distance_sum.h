@@ -1,4 +1,4 @@
-// Distances added up to one side of a MutualDistance.
+// Accumulates distances to one direction of a MutualDistance.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace vitruvia {
 
-// Of two points of surfaces (see MutualDistance).
+// Distance between two surfaces' points as MutualDistance defines it.
 inline double SurfaceDistance(const Vector3f& apart, const Vector3f& normal, double spacing_m) {
   return std::max<double>(std::abs(normal.dot(apart)), apart.norm() - spacing_m);
 }
@@ -21,7 +21,7 @@ struct DistanceSum {
     if (distance_m <= limits.near_m) near += weight;
     all += weight;
   }
-  // Of nothing: as far as can be, and nothing explained.
+  // Mean distance, or none_m if nothing was added.
   double MeanOr(double none_m) const { return all > 0.0 ? sum_m / all : none_m; }
   double share() const { return all > 0.0 ? near / all : 0.0; }
 };

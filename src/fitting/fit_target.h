@@ -1,4 +1,5 @@
-// What a body is fitted to: a surface or a depth frame, seen through the pairs that it asks for.
+// The target to which a body is fitted, a surface or a depth frame: it finds correspondences and
+// measures distances.
 #pragma once
 
 #include <vector>
@@ -7,18 +8,18 @@
 
 namespace vitruvia {
 
-// A vertex of the body and where it should be. The residual is the distance along the normal, and
-// a share of the distance in space.
+// A correspondence between a vertex of the body and a target point. The residual is the distance
+// along the normal and a share of the distance in space.
 struct FitPair {
   int vertex = -1;
   Vector3f target, normal;  // world frame; the normal of unit length
   float weight = 1.0f;
 };
 
-// How near two surfaces are, both ways. The distance of a point from a surface that is known by
-// points is the one along the normal, or what its distance in space exceeds the points' spacing by
-// if that is more. Distances are truncated at `far_m`; what is not to be expected (behind
-// something, out of the image) does not count.
+// Distances between two surfaces in both directions. A surface is sampled by points; the distance
+// of a point from it is the larger of the distance along the normal and the distance in space minus
+// the points' spacing. Distances are truncated at `far_m`. Parts that cannot be observed (occluded
+// or out of the image) do not count.
 struct MutualDistance {
   double target_to_body_m = 0.0;  // mean over the target's points
   double body_to_target_m = 0.0;  // mean over the body's vertices that can be judged
@@ -38,7 +39,8 @@ class FitTarget {
   // Replaces `pairs`. No pair is farther apart than cutoff_m.
   virtual void FindPairs(const PosedBody& body, double cutoff_m, std::vector<FitPair>& pairs) = 0;
   virtual MutualDistance Measure(const PosedBody& body, const NearFar& limits) = 0;
-  // The mean of the points, and of the body's vertices that they should show.
+  // The mean of the target's points, and the mean of the body's vertices that the target should
+  // show.
   virtual Vector3d Center() const = 0;
   virtual Vector3d VisibleCenter(const PosedBody& body) = 0;
 };

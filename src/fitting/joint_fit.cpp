@@ -29,7 +29,8 @@ Eigen::VectorXd Residuals(const ShapedBody& body, const BodyState& state,
   return residuals;
 }
 
-// Turned about the vertical through its pelvis, and moved, so that it is nearest.
+// The start rotated about the vertical axis through the pelvis, and translated, to best match the
+// known joints.
 BodyState Placed(const ShapedBody& body, const BodyState& start, const KnownJoints& known) {
   constexpr int kDirections = 24;
   BodyState best;
@@ -76,7 +77,7 @@ BodyState FittedToJoints(const ShapedBody& body, BodyState start, const KnownJoi
     const Eigen::MatrixXd jacobian = Jacobian(body, state, known, residuals);
     Eigen::MatrixXd hessian = weight * jacobian.transpose() * jacobian;
     Eigen::VectorXd gradient = weight * jacobian.transpose() * residuals;
-    constexpr double kDamping = 1.0;  // a rotation that one joint alone does not fix
+    constexpr double kDamping = 1.0;  // for rotations that a single joint does not determine
     hessian.diagonal().array() += kDamping;
     hessian.diagonal().tail<kAngleCount>().array() += stiffness;
     gradient.tail<kAngleCount>() +=

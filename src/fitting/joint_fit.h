@@ -1,4 +1,4 @@
-// A body's pose from joints whose places are known roughly.
+// A body's pose from approximately known joint positions.
 #pragma once
 
 #include <vector>
@@ -17,9 +17,9 @@ struct KnownJoints {
   double deviation_m = 0.02;  // standard deviation of a coordinate
 };
 
-// The state, near `start` in its angles and upright in any direction about the y axis, whose joints
-// are nearest to the known ones (at least one): least squares with a prior on the angles, within
-// joint limits.
+// The state whose joints best match the known ones (at least one): least squares within the joint
+// limits, with a prior on the angles about `start`. The body stays upright; its heading about the y
+// axis is free.
 BodyState FittedToJoints(const ShapedBody& body, BodyState start, const KnownJoints& known,
                          double angle_deviation_deg);
 

@@ -1,8 +1,9 @@
-// Fits pose, place and shape of a body to a target, from one start.
+// Fits pose, position and shape of a body to a target, from one start.
 //
-// Gauss–Newton on Σ w ρ(r) over pairs found anew in each iteration (Geman–McClure's ρ with a width
-// that shrinks), with joint limits as bounds of the angles (an angle that a step would carry beyond
-// a limit is held there, and the others are solved for again), and priors on angles and shape.
+// Gauss–Newton on Σ w ρ(r) over pairs that are found again in each iteration (ρ: Geman–McClure with
+// a shrinking width), with joint limits as bounds of the angles (an angle that a step would move
+// beyond its limit is held at the limit, and the others are solved for again), and priors on angles
+// and shape.
 #pragma once
 
 #include <optional>
@@ -17,20 +18,21 @@ namespace vitruvia {
 struct FitStage {
   int iterations = 10;
   double first_cutoff_m = 0.3, last_cutoff_m = 0.1;  // of a pair's distance
-  double point_share = 0.2;  // of the squared distance in space; the rest is that along the normal
+  double point_share = 0.2;  // weight of the squared distance in space; the rest is that of the
+                             // distance along the normal
   bool moves_shape = false;
 };
 
 struct FitPriors {
-  AngleVector angles_deg = AngleVector::Zero();  // the pose that is expected
+  AngleVector angles_deg = AngleVector::Zero();  // mean of the prior on the pose
   double angle_deviation_deg = 40.0;
-  Eigen::VectorXd theta;            // the shape that is expected
+  Eigen::VectorXd theta;            // mean of the prior on the shape
   double point_deviation_m = 0.02;  // of a pair's residual
-  double point_count = 300.0;       // independent points that all pairs together stand for
+  double point_count = 300.0;       // effective number of independent points of all pairs
 };
 
-// Normal equations of the shape alone, at a state: what the pairs and the pose's prior say of it
-// once pose and place follow it freely. Hx = −g for a step x; the shape's own prior is not in them.
+// Normal equations of the shape at a state, with pose and position eliminated (Schur complement),
+// from the pairs and the pose's prior. Hx = −g for a step x; the shape's own prior is not included.
 struct ShapeEquations {
   Eigen::MatrixXd hessian;
   Eigen::VectorXd gradient;
@@ -48,7 +50,8 @@ class PoseFit {
   ShapeEquations EquationsOfShape(FitTarget& target, const BodyState& state, const FitStage& stage,
                                   const FitPriors& priors);
   MutualDistance Measure(FitTarget& target, const BodyState& state, const NearFar& limits);
-  // The state moved so that what is visible of the body has its centroid on the target's.
+  // The state translated so that the centroid of the body's visible part coincides with the
+  // target's.
   BodyState Centered(FitTarget& target, BodyState state);
 
  private:
@@ -57,7 +60,8 @@ class PoseFit {
     Eigen::VectorXd gradient;
   };
   void Assemble(const FitStage& stage, double robust_m, const FitPriors& priors);
-  // Of the pairs within the cutoff and the priors on the angles; nothing if there are no pairs.
+  // Equations of the pairs within the cutoff and the priors on the angles; nothing if there are no
+  // pairs.
   std::optional<Equations> EquationsAt(FitTarget& target, const BodyState& state, double cutoff_m,
                                        const FitStage& stage, const FitPriors& priors);
 

@@ -1,4 +1,4 @@
-// Finds a body's pose without a start that is known: many hypotheses, coarse to fine.
+// Finds a body's pose without a known start: many hypotheses, from coarse to fine.
 #pragma once
 
 #include <vector>
@@ -10,15 +10,16 @@ namespace vitruvia {
 struct PoseHypothesis {
   BodyState state;
   const char* pose = "";     // name of the pose that it starts from
-  double heading_deg = 0.0;  // turn to the subject's left, from where the search's front is
+  double heading_deg = 0.0;  // rotation to the subject's left from the front direction of the
+                             // search
 };
 
-// Each pose of the library at each of the headings, evenly spaced. `world_from_front` turns a body
-// in the rest pose so that it looks to the front.
+// Every start pose at each of `headings` evenly spaced headings. `world_from_front` rotates a body
+// in the rest pose so that it faces the front direction.
 std::vector<PoseHypothesis> StartHypotheses(const Matrix3<double>& world_from_front, int headings,
                                             const Eigen::VectorXd& theta);
 
-// Mean distance of the joints below which two poses are one.
+// Mean joint distance below which two poses count as the same.
 inline constexpr double kSamePose_m = 0.05;
 
 struct FoundPose {
@@ -27,23 +28,23 @@ struct FoundPose {
   MutualDistance distance;
 };
 
-// A level of the search: a body and the target as that level sees it, and what is done with them.
+// A level of the search: body and target at the level's resolution, and the fit to run.
 struct SearchLevel {
   PoseFit* fit = nullptr;
   FitTarget* target = nullptr;
   FitStage stage;
-  int kept = 1;  // of the hypotheses, the best ones, that go on to the next level
+  int kept = 1;  // number of best hypotheses that go on to the next level
 };
 
 struct SearchOutcome {
   FoundPose best;
-  // Of the best hypothesis that ended elsewhere: by what share its distance is larger. Infinite if
-  // all that were refined ended in one pose.
+  // Relative excess of the distance of the best hypothesis that ended in another pose. Infinite if
+  // all refined hypotheses ended in the same pose.
   double margin = 0.0;
 };
 
-// The hypotheses, which must outlive the outcome, go through the levels; at each, those near a
-// better one are dropped. Order of equal ones is that of the hypotheses.
+// Passes the hypotheses, which must outlive the outcome, through the levels; at each level, those
+// near a better one are dropped. Equally good ones keep the order of the hypotheses.
 SearchOutcome SearchPose(const std::vector<PoseHypothesis>& hypotheses,
                          const std::vector<SearchLevel>& levels, FitPriors priors,
                          const NearFar& limits);

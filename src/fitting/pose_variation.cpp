@@ -10,8 +10,8 @@
 namespace vitruvia {
 namespace {
 
-// A variant replaces a pose if its distance is at most this share of the pose's: what differs by
-// less is noise, and the pose that is there was fitted.
+// A variant replaces a pose only if its distance is at most this share of the pose's: smaller
+// differences are noise, and the current pose has been fitted.
 constexpr double kBetter = 0.98;
 
 BodyState Turned(BodyState state, double angle_rad) {

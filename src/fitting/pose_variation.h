@@ -1,5 +1,6 @@
-// Leaves the local minima of a fit to a depth frame: directions of the body, bends of the trunk and
-// poses of single limbs are tried one after the other, and judged by rendering (no gradient).
+// Escapes from local minima of a fit to a depth frame: headings of the body, bends of the trunk and
+// poses of single limbs are tried one after the other and evaluated by rendering, without
+// gradients.
 #pragma once
 
 #include <vector>
@@ -36,7 +37,7 @@ class PoseVariation {
   PosedBody posed_;
 };
 
-// Of one side, the arm's or the leg's angles replaced.
+// The state with one side's angles first_angle … end_angle − 1 (its arm or leg) replaced.
 BodyState WithLimb(BodyState state, Side side, const SideAngles& angles_deg, int first_angle,
                    int end_angle);
 

@@ -25,21 +25,21 @@ void PoseSearchSettings::Describe(Fields& f) {
             .max = 180.0,
             .origin = Origin::kGuessed});
   f.Number("near_m", near_m,
-           {.meaning = "distance within which the body and what is seen explain each other",
+           {.meaning = "distance up to which the body and the measurements explain each other",
             .unit = "m",
             .min = 0.001,
             .max = 1.0,
             .origin = Origin::kGuessed});
-  f.Number("far_m", far_m,
-           {.meaning = "distance beyond which the body and what is seen are equally far from each "
-                       "other",
-            .unit = "m",
-            .min = 0.001,
-            .max = 1.0,
-            .origin = Origin::kGuessed});
+  f.Number(
+      "far_m", far_m,
+      {.meaning = "distance at which distances between the body and the measurements are truncated",
+       .unit = "m",
+       .min = 0.001,
+       .max = 1.0,
+       .origin = Origin::kGuessed});
   f.Number("least_explained", least_explained,
-           {.meaning = "share of what is seen, and of the body that can be judged, that must be "
-                       "explained for a person to be found",
+           {.meaning = "share of the measurements, and of the evaluable part of the body, that "
+                       "must be explained for a person to be found",
             .min = 0.0,
             .max = 1.0,
             .origin = Origin::kGuessed});

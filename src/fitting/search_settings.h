@@ -1,4 +1,4 @@
-// Settings of a search for a pose that are the same for surfaces and depth frames.
+// Settings of a pose search that are common to surfaces and depth frames.
 #pragma once
 
 #include "config/settings.h"

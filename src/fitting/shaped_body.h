@@ -1,5 +1,5 @@
-// A body as the fit of pose and shape sees it, its state, and how its surface moves with each
-// parameter of the state.
+// The body model of the fit of pose and shape, its state, and the derivatives of its surface with
+// respect to the state's parameters.
 //
 // The pose is given in anatomical angles (body/joint_limits.h), so joint limits are bounds of
 // single parameters. The surface is x_i = Σ_j w_ij (R_j (v̄_i(θ) − c_j(θ)) + p_j), where c_j are the
@@ -30,7 +30,7 @@ struct AngleRanges {
 const AngleRanges& JointLimits();
 AngleVector WithinLimits(const AngleVector& angles_deg);
 
-// A surface in the rest pose that may also change its shape: v̄ = mean + basis θ.
+// A surface in the rest pose with linear shape coefficients: v̄ = mean + basis θ.
 struct ShapedBody {
   std::vector<Vector3f> mean;       // V, rest pose, y up, z to the front; metres
   Eigen::MatrixXf basis;            // 3V × K, metres per standard deviation; K may be 0
@@ -42,7 +42,7 @@ struct ShapedBody {
   int shape_count() const { return static_cast<int>(basis.cols()); }
 };
 
-// The body without a shape to choose, on at most that many of its vertices.
+// The body with a fixed shape (K = 0), on at most that many of its vertices.
 ShapedBody RigidShape(const BodyModel& body, int vertices);
 // The same body on fewer vertices (geometry/decimation.h).
 ShapedBody Coarser(const ShapedBody& body, int vertices);
@@ -54,7 +54,7 @@ struct BodyState {
   Eigen::VectorXd theta;
 };
 
-// For each bone the motion from its rest place, for joints of the state's shape.
+// For each bone the rigid motion from the rest pose, with the joints of the state's shape.
 BoneTransforms WorldFromRest(const ShapedBody& body, const BodyState& state);
 Skeleton ShapedSkeleton(const ShapedBody& body, const Eigen::VectorXd& theta);
 std::vector<Vector3f> ShapedSurface(const ShapedBody& body, const Eigen::VectorXd& theta);
@@ -71,8 +71,8 @@ class PosedBody {
   void Set(const BodyState& state);
   const ShapedBody& body() const { return body_; }
   double mean_edge_m() const { return mean_edge_m_; }  // of the mean shape, weighted by area
-  // Share of the mean shape's area that a vertex stands for, over the mean of all: a face of many
-  // small triangles counts for no more than a back of few.
+  // Area of the mean shape that a vertex represents, divided by the mean over all vertices: a
+  // densely triangulated face gets no more weight per area than a coarsely triangulated back.
   float AreaShare(int vertex) const { return area_shares_[static_cast<std::size_t>(vertex)]; }
   const std::vector<Vector3f>& vertices() const { return vertices_; }  // world frame
   const std::vector<Vector3f>& normals() const { return normals_; }
@@ -92,7 +92,7 @@ class PosedBody {
   std::vector<Vector3d> joints_;                       // posed
   BoneTransforms world_from_rest_;
   std::array<Rigidf, kBoneCount> float_transforms_;
-  // Of each bone, with each rigid parameter: see bone_twists.h.
+  // Twist of each bone per rigid parameter: see bone_twists.h.
   std::array<Eigen::Matrix<float, 6, Eigen::Dynamic>, kBoneCount> twists_;
   std::array<Eigen::Matrix<float, 3, Eigen::Dynamic>, kBoneCount> offsets_;  // d(p_j − R_j c_j)/dθ
   std::vector<Vector3f> rest_, vertices_, normals_;

@@ -1,4 +1,4 @@
-// A surface as the target of a fit: whole or in part, of one piece or several.
+// A surface as the target of a fit; it may be partial and have several components.
 #pragma once
 
 #include "fitting/fit_target.h"
@@ -7,12 +7,12 @@
 
 namespace vitruvia {
 
-// How far outside of a body its surface may lie.
+// Whether the surface may lie outside the body.
 enum class Clothing { kNone, kLoose };
 
 class SurfaceTarget final : public FitTarget {
  public:
-  // `seekers` of the points look for the body; the body looks for all of them.
+  // `seekers` of the points are paired to the body; the body's vertices are paired to all points.
   SurfaceTarget(OrientedPoints points, int seekers, Clothing clothing);
 
   void FindPairs(const PosedBody& body, double cutoff_m, std::vector<FitPair>& pairs) override;

@@ -32,7 +32,7 @@ struct PinholeCamera {
     return {(u - Scalar(cx)) / Scalar(fx) * z, (v - Scalar(cy)) / Scalar(fy) * z, z};
   }
 
-  // The pixel whose square holds pixel coordinates (u, v): its left and upper edge belong to it.
+  // The pixel whose square contains pixel coordinates (u, v), including its left and upper edges.
   // Nothing outside the image.
   template <class Scalar>
   std::optional<Pixel> PixelAt(const Eigen::Matrix<Scalar, 2, 1>& uv) const {

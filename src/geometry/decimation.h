@@ -11,10 +11,10 @@ struct Decimation {
 };
 
 // Collapses half-edges onto one of their ends in the order of their quadric error (Garland &
-// Heckbert 1997) until target_vertices are left, so whatever belongs to vertices carries over. No
-// collapse changes the topology, turns a triangle by more than a right angle or makes it a sliver;
-// where that leaves no choice, more vertices stay. A mesh of fewer vertices stays as it is.
-// DataError if the mesh is not a closed manifold.
+// Heckbert 1997) until target_vertices are left, so data given per vertex (such as weights) stays
+// valid for the kept vertices. No collapse changes the topology, turns a triangle by more than a
+// right angle or makes it a sliver; if no such collapse is left, more vertices remain. A mesh with
+// fewer vertices is returned unchanged. DataError if the mesh is not a closed manifold.
 Decimation Decimate(const TriangleMesh& mesh, int target_vertices);
 
 }  // namespace vitruvia

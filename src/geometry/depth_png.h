@@ -12,12 +12,12 @@ namespace vitruvia {
 // not of the expected size.
 DepthImage ReadDepthPng(const std::filesystem::path& file, double unit_m, int width, int height);
 
-// "" if every finite depth above 0 is 1 to 65535 units when rounded, as the file can hold; else how
-// many are not, and the unit that would do.
+// "" if every finite depth above 0 is 1 to 65535 units after rounding, the range of the file;
+// otherwise the number of depths outside this range, and a suitable unit.
 std::string DepthPngProblem(const DepthImage& depth, double unit_m);
 
-// Depths that are negative or not finite become 0. std::invalid_argument with DepthPngProblem's
-// text.
+// Depths that are negative or not finite become 0. std::invalid_argument with the message of
+// DepthPngProblem if there is one.
 void WriteDepthPng(const std::filesystem::path& file, const DepthImage& depth, double unit_m);
 
 }  // namespace vitruvia

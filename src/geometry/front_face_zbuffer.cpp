@@ -35,7 +35,7 @@ struct FrontFaceZBuffer::TriangleLanes {
   // down: negative for front faces.
   FloatLanes Area() const { return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u); }
 
-  // Clipped before they are rounded: far outside the image the numbers do not fit an int.
+  // Clipped before rounding, because far outside the image the numbers do not fit an int.
   BoxLanes Boxes(const PinholeCamera& camera) const {
     const auto width = static_cast<float>(camera.width), height = static_cast<float>(camera.height);
     const auto low = [](const FloatLanes& x, float end) {
@@ -96,7 +96,7 @@ void FrontFaceZBuffer::CollectFrontFaces(const std::vector<Triangle>& triangles)
       front_faces_[count++] = group[std::countr_zero(left)];
     }
   };
-  // Lanes that remain are filled with the last triangle: to draw one twice changes nothing.
+  // Remaining lanes are filled with the last triangle: drawing it twice has no effect.
   std::size_t i = 0;
   for (; i + kLanes <= triangles.size(); i += kLanes) collect(&triangles[i]);
   if (i < triangles.size()) {

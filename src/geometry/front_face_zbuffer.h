@@ -1,10 +1,10 @@
-// A quick z-buffer of closed meshes: what a camera outside sees of them is their front faces.
+// A fast z-buffer for closed meshes, of which a camera outside sees only front faces.
 //
-// Gives the picture of ZBuffer, which is its reference, at a fraction of the time: eight triangles
-// are culled and then drawn side by side, one pixel of each at a time, which suits meshes whose
+// Renders the same image as ZBuffer, its reference, in a fraction of the time: eight triangles at a
+// time are culled and then drawn in parallel, one pixel of each per step, which suits meshes whose
 // triangles cover a few pixels each; and only the rows and columns that the mesh covers are cleared
-// and read. Pictures differ where a mesh cuts through itself and its inside shows, and where
-// rounding decides about a pixel on a silhouette.
+// and read. The images differ where a mesh intersects itself so that its inside is visible, and at
+// pixels on a silhouette where rounding decides.
 #pragma once
 
 #include "geometry/mesh_rasterizer.h"
@@ -16,7 +16,7 @@ class FrontFaceZBuffer final : public MeshRasterizer {
   explicit FrontFaceZBuffer(const PinholeCamera& camera, float near_m = 0.05f);
 
   // Triangles are counter-clockwise seen from outside; those with a vertex nearer than near_m are
-  // left out whole. The result stays valid until the next call, as long as this object.
+  // not drawn at all. The result stays valid until the next call, as long as this object.
   const DepthImage& Render(const std::vector<Vector3f>& vertices_in_camera,
                            const std::vector<Triangle>& triangles) &
       override;
@@ -39,9 +39,10 @@ class FrontFaceZBuffer final : public MeshRasterizer {
   PinholeCamera camera_;
   float near_m_;
   DepthImage depth_;
-  Box drawn_{0, 0, -1, -1};  // what is not empty in depth_
+  Box drawn_{0, 0, -1, -1};  // bounds of the drawn pixels of depth_
   std::vector<Corner> corners_;
-  // The front faces whose boxes hold a pixel centre: the first front_face_count_, whole lanes.
+  // The first front_face_count_ are the front faces whose boxes contain a pixel centre, padded to a
+  // multiple of kLanes.
   std::vector<Triangle> front_faces_;
   std::size_t front_face_count_ = 0;
 };

@@ -1,5 +1,5 @@
-// PNG files of one channel: what depth and masks are stored in. For geometry's own files only,
-// since it shows OpenCV.
+// Single-channel PNG files, in which depth and masks are stored. Include it only within geometry/,
+// because it exposes OpenCV.
 #pragma once
 
 #include <filesystem>
@@ -15,9 +15,9 @@ cv::Mat ReadGreyPng(const std::filesystem::path& file, int bits, int width, int 
 
 void WriteGreyPng(const std::filesystem::path& file, const cv::Mat& raw);
 
-// Any image that OpenCV reads, as it is stored. Empty if it is damaged: libpng holds all check sums
-// against the data and says on standard error what is wrong. DataError naming `where` if OpenCV
-// gives a reason.
+// Decodes any image that OpenCV reads, without conversion. The result is empty if the image is
+// damaged: libpng verifies all checksums and reports errors on standard error. DataError naming
+// `where` if OpenCV throws.
 cv::Mat DecodeImage(std::string& bytes, const std::string& where);
 
 }  // namespace vitruvia

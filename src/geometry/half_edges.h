@@ -1,4 +1,4 @@
-// Which faces meet at which edge: the half-edges of a mesh of N-sided faces.
+// Adjacency of faces across edges: the half-edges of a mesh of N-sided faces.
 //
 // Half-edge f·N + k runs from corner k of face f to its next corner.
 #pragma once
@@ -12,7 +12,7 @@
 namespace vitruvia {
 
 struct HalfEdges {
-  std::vector<int> twin;  // the half-edge on the other side; -1 where `problem` tells why not
+  std::vector<int> twin;  // the half-edge on the other side; -1 if there is none, see `problem`
   std::vector<int> edge;  // the edge that a half-edge and its twin share, in order of appearance
   int edge_count = 0;
   bool closed = true;   // every edge belongs to two faces or more

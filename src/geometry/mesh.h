@@ -1,4 +1,4 @@
-// Triangle meshes in flat arrays, and what follows from them alone.
+// Triangle meshes in flat arrays, and quantities computed from them.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct TriangleMesh {
   std::vector<Triangle> triangles;  // counter-clockwise seen from outside
 };
 
-// A mesh of quads only: what Catmull–Clark subdivision takes and gives.
+// A quad mesh, the input and output of Catmull–Clark subdivision.
 struct QuadMesh {
   std::vector<Vector3f> vertices;
   std::vector<Quad> quads;  // counter-clockwise seen from outside
@@ -36,7 +36,7 @@ double EnclosedVolume(const TriangleMesh& mesh);  // m³, divergence theorem; me
 Eigen::AlignedBox3f BoundingBox(const std::vector<Vector3f>& vertices);  // empty if there are none
 double BoundingBoxDiagonal(const std::vector<Vector3f>& vertices);       // metres
 
-// What a body mesh must be. `problem` is "" when the mesh is one closed, consistently oriented
+// The requirements of a body mesh. `problem` is "" if the mesh is one closed, consistently oriented
 // 2-manifold of finite vertices without degenerate triangles.
 struct MeshReport {
   int components = 0;

@@ -2,13 +2,13 @@
 // messages, and returns vertices (unscaled, in the file's frame) and triangles, both in the file's
 // order; everything else that a file may hold (normals, colours, texture coordinates, other
 // elements) is skipped. DataError with file, line or byte, and cause if the file is damaged or cut
-// short, or if a face is no triangle. Indices are not compared with the number of vertices.
+// short, or if a face is not a triangle. Indices are not compared with the number of vertices.
 //
 // They are our own because no library at hand does all of it: OpenMesh refuses whole files (a
 // second list on faces, a comment before the format, continued lines), VTK crashes on files that
 // are cut short and duplicates vertices that have texture coordinates, tinyobjloader (2.0.0rc10)
-// reads "abc" and "nan" as 0 and "2,5" as 2 without a word and refuses continued lines, and none of
-// them says where a file is damaged.
+// silently reads "abc" and "nan" as 0 and "2,5" as 2 and refuses continued lines, and none of them
+// reports where a file is damaged.
 #pragma once
 
 #include <string>

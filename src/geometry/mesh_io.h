@@ -9,11 +9,11 @@ namespace vitruvia {
 
 bool IsMeshFile(const std::filesystem::path& file);  // by its extension
 
-// What each format may hold is said in mesh_formats.h. DataError with file, line or byte, and cause
+// mesh_formats.h lists what each format may contain. DataError with file, line or byte, and cause
 // if the file is missing or damaged, has faces that are not triangles, indices out of range, or
 // vertices that are not finite.
 TriangleMesh ReadMesh(const std::filesystem::path& file);
-// Of a file whose unit of length is unit_m metres.
+// Reads a file whose unit of length is unit_m metres.
 TriangleMesh ReadMesh(const std::filesystem::path& file, double unit_m);
 
 // PLY is written as little-endian binary. RunError if the file cannot be written.

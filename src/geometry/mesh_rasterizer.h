@@ -1,4 +1,4 @@
-// Depth of a triangle mesh as a pinhole camera sees it, by one of two z-buffers.
+// Renders the depth of a triangle mesh in a pinhole camera, by one of two z-buffers.
 #pragma once
 
 #include <memory>
@@ -11,14 +11,14 @@ namespace vitruvia {
 
 enum class Rasterizer {
   kAllTriangles,  // both sides of every triangle: zbuffer.h
-  kFrontFaces,    // what a camera outside a closed mesh sees: front_face_zbuffer.h
+  kFrontFaces,    // front faces only, for a camera outside a closed mesh: front_face_zbuffer.h
 };
 
 class MeshRasterizer {
  public:
   virtual ~MeshRasterizer() = default;
-  // Depth at pixel centres, 0 where nothing is. The result stays valid until the next call, as
-  // long as this object.
+  // Depth at pixel centres, 0 where no triangle is. The result stays valid until the next call or
+  // the end of this object.
   virtual const DepthImage& Render(const std::vector<Vector3f>& vertices_in_camera,
                                    const std::vector<Triangle>& triangles) & = 0;
 };

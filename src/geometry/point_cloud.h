@@ -1,4 +1,4 @@
-// Depth images as point clouds, and depth looked up at a sub-pixel place.
+// Conversion of depth images to point clouds, and interpolation of depth at sub-pixel positions.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@ struct PointCloud {
   std::vector<Vector3f> points;  // N, camera frame, metres
   std::vector<int> pixels;       // N, v · width + u
 };
-// Pixels that are NaN, not positive or beyond max_depth_m are no measurement.
+// Pixels that are NaN, not positive or beyond max_depth_m are treated as not measured.
 void CloudFromDepth(const DepthImage& depth, const PinholeCamera& camera, int stride,
                     float max_depth_m, PointCloud& cloud);
 

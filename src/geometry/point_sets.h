@@ -15,7 +15,7 @@ struct OrientedPoints {
   std::vector<Vector3f> points, normals;
 };
 
-// `count` of them, evenly spaced by index; all if there are no more.
+// `count` of the points, evenly spaced by index; all of them if there are not more than `count`.
 OrientedPoints EvenlyChosen(const OrientedPoints& all, int count);
 
 // `count` points that cover the surface evenly: the same for the same mesh, whatever the sizes of

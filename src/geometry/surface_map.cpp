@@ -35,8 +35,8 @@ void Try(const Vector3d& point, const TriangleCorners& corners, std::int32_t tri
   if (candidate.Beats(best)) best = candidate;
 }
 
-// The closest point is the foot of the perpendicular, or lies on a side. All are tried, so a
-// triangle without area, for which the first means nothing, is treated rightly too.
+// The closest point is the foot of the perpendicular, or lies on a side. All are tried, so that a
+// triangle without area, for which the first is undefined, is handled correctly.
 void TryTriangle(const Vector3d& point, const TriangleCorners& corners, std::int32_t triangle,
                  Candidate& best) {
   const Vector3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];

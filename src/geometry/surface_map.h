@@ -1,4 +1,4 @@
-// Points of one surface expressed on another: each as a triangle and barycentric coordinates.
+// Points of one surface mapped to another, each as a triangle and barycentric coordinates.
 #pragma once
 
 #include <vector>

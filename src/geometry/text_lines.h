@@ -18,7 +18,7 @@ class TextLines {
   bool Next();  // moves on to the next line; false at the end of the file
   std::string_view text() const { return text_; }
   std::vector<std::string_view> Words() const;    // of the line, split at blanks
-  std::size_t position() const { return next_; }  // of the byte that follows the line's end
+  std::size_t position() const { return next_; }  // offset of the byte after the end of the line
 
   // DataError "file:line: problem".
   [[noreturn]] void Fail(std::string_view problem) const;
@@ -35,7 +35,7 @@ std::vector<std::string_view> SplitAtBlanks(std::string_view text);
 // The text before a comment, which begins with a # at the start of a word.
 std::string_view WithoutComment(std::string_view text);
 
-// The number that the whole word spells, in C's notation; nothing if it spells none.
+// The number that the whole word represents, in C's notation; nothing if it is not a number.
 std::optional<double> ParseNumber(std::string_view word);
 std::optional<std::int64_t> ParseInteger(std::string_view word);
 

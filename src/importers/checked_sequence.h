@@ -1,4 +1,4 @@
-// The end of every import: the new sequence is verified before it appears.
+// The last step of every import: the new sequence is verified before it is published.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,9 @@
 
 namespace vitruvia {
 
-// Completes the sequence, holds its parts against each other, and publishes it at `folder` with all
-// warnings printed and noted in its provenance: the importer's own, empty ones left out, and the
-// verification's. DataError, and nothing is left, if the parts cannot belong together.
+// Completes the sequence, checks its parts against each other, and publishes it at `folder`. Prints
+// all warnings and stores them in its provenance: the importer's (empty ones are ignored) and those
+// of the verification. If the parts are inconsistent, throws DataError and leaves no files.
 void PublishChecked(SequenceWriter& writer, const std::filesystem::path& folder,
                     const std::vector<std::string>& warnings);
 

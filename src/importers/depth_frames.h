@@ -1,4 +1,4 @@
-// Frames of a recording as depth in metres, oriented as the sequence has them.
+// Reads frames of a recording as depth in metres, in the orientation of the sequence.
 #pragma once
 
 #include <filesystem>
@@ -13,13 +13,13 @@ namespace vitruvia {
 struct StoredDepth {
   PinholeCamera camera;  // of the stored images
   double unit_m = 0.001;
-  std::vector<double> invalid;  // stored values that are no measurement
+  std::vector<double> invalid;  // stored values that mean "no measurement"
   OrientationSettings orientation;
 };
 
-// An image or an organised point cloud, whose z is depth. 0, negative numbers, NaN and infinities
-// are no measurement. DataError naming the file if it is damaged, of another size than the camera,
-// or a cloud whose points do not lie on the camera's rays.
+// Reads an image or an organised point cloud, whose z is depth. 0, negative numbers, NaN and
+// infinities mean "no measurement". DataError naming the file if it is damaged, if its size is not
+// the camera's, or if the points of a cloud do not lie on the camera's rays.
 DepthImage ReadDepthFrame(const std::filesystem::path& file, const StoredDepth& stored);
 
 }  // namespace vitruvia

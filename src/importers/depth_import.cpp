@@ -91,7 +91,8 @@ class FrameReader {
     return file.empty() ? DepthImage(camera_.width, camera_.height) : ReadDepthFrame(file, stored_);
   }
 
-  // The first file that is there is read first: what is wrong with all is said of that one.
+  // The first existing file is read first, so that an error common to all files is reported for
+  // this one.
   std::vector<DepthImage> ReadSample(const std::vector<fs::path>& files, int count) const {
     const auto first = std::find_if(files.begin(), files.end(),
                                     [](const fs::path& file) { return !file.empty(); });
@@ -112,8 +113,8 @@ class FrameReader {
   WorkerTeam& team_;
 };
 
-// Depth in another unit is the likeliest mistake of all, and makes everything after it fail with
-// messages that say nothing of it.
+// Depth in a wrong unit is the most likely mistake, and would cause later steps to fail with
+// misleading messages.
 void RequireRoom(const std::vector<DepthImage>& sample, const DepthImportSettings& s) {
   std::vector<double> depths;
   for (const DepthImage& image : sample) {

@@ -1,4 +1,4 @@
-// Recordings of depth cameras made into sequences of ours: the person is cut out, and there is no
+// Converts recordings of depth cameras to sequences: the person is segmented; there is no ground
 // truth.
 #pragma once
 
@@ -18,14 +18,15 @@ struct DepthImport {
   int frames = 0, missing = 0;
   std::vector<std::string> gaps;
   Room room;
-  int people = 0;  // numbers given, one for each time that somebody came
+  int people = 0;  // number of labels assigned, one each time that a person enters
   ChosenPerson chosen;
   CutoutReport cut;
 };
 
 // Writes the sequence (sequence/sequence.h) with masks and preview. The result is the same for any
-// number of threads. DataError, and nothing written, if a file is damaged, the images are not of
-// the stated camera, their depths are no metres of a room, nothing is measured or nobody is found.
+// number of threads. DataError, and nothing is written, if a file is damaged, the images do not
+// match the stated camera, their depths are implausible for a room, nothing is measured or nobody
+// is found.
 DepthImport ImportDepthSequence(const DepthImportSettings& settings, int threads,
                                 const std::filesystem::path& folder);
 

@@ -55,25 +55,25 @@ void DepthImportSettings::Describe(Fields& f) {
       "camera", camera,
       {.meaning = "intrinsics of the stored images, before they are oriented", .required = true});
   f.Number("unit_m", unit_m,
-           {.meaning = "metres that a stored value of 1 stands for: 0.001 for millimetres, 1 for "
-                       "metres and point clouds, 0.0002 for the TUM RGB-D benchmark",
+           {.meaning = "unit of the stored values, in metres: 0.001 for millimetres, 1 for metres "
+                       "and point clouds, 0.0002 for the TUM RGB-D benchmark",
             .unit = "m",
             .min = 1e-7,
             .max = 1e3});
-  f.NumberList("invalid", invalid,
-               {.meaning = "stored values that are no measurement, besides 0, negative and "
-                           "non-finite ones"});
+  f.NumberList(
+      "invalid", invalid,
+      {.meaning =
+           "stored values that are not measurements, besides 0, negative and non-finite ones"});
   f.Section("orientation", orientation,
-            {.meaning = "crop, mirror, turn and size of the images, in this order; the intrinsics "
-                        "follow"});
+            {.meaning = "cropping, mirroring, rotation and resizing of the images, in this order; "
+                        "the intrinsics are adapted"});
   f.Section("frames", frames, {.meaning = "the part of the recording that is used"});
-  f.Choice(
-      "missing_frames", missing_frames,
-      {{"empty", MissingFrames::kEmpty}, {"skip", MissingFrames::kSkip}},
-      {.meaning = "what stands for frames that numbers in file names or time stamps step over: "
-                  "images without measurements, or nothing"});
+  f.Choice("missing_frames", missing_frames,
+           {{"empty", MissingFrames::kEmpty}, {"skip", MissingFrames::kSkip}},
+           {.meaning = "replacement of frames that are skipped by the numbers in file names or by "
+                       "time stamps: images without measurements, or nothing"});
   f.Number("fps", fps,
-           {.meaning = "frames per second; 0: as the time stamps say, 30 where there are none",
+           {.meaning = "frames per second; 0: from the time stamps, or 30 without them",
             .unit = "1/s",
             .min = 0.0,
             .max = 1e4});

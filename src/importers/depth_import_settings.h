@@ -1,4 +1,4 @@
-// What an import of a depth recording needs to know.
+// Settings of the import of a depth recording.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace vitruvia {
 
-// Intrinsics that somebody has to state.
+// Intrinsics that the user has to state.
 struct StatedCamera {
   int width = 0, height = 0;
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;
@@ -22,14 +22,14 @@ struct StatedCamera {
 };
 
 enum class MissingFrames {
-  kEmpty,  // an image without measurements stands for each, so that frames keep their times
-  kSkip,   // the frames after them move up
+  kEmpty,  // each is replaced by an image without measurements, so that frames keep their times
+  kSkip,   // they are skipped: the following frames move up
 };
 
 // Which part of the recording is used.
 struct FrameRange {
   int first = 0;
-  int count = 0;  // 0: all that follow
+  int count = 0;  // 0: all following frames
 
   void Describe(Fields& fields);
 };

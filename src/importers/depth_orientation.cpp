@@ -117,8 +117,8 @@ void ResizeSettings::Describe(Fields& f) {
              .min = 0,
              .max = kMostPixels});
   f.Number("smooth_within_m", smooth_within_m,
-           {.meaning = "neighbours whose depths differ by less are one surface, between whose "
-                       "pixels depth is interpolated",
+           {.meaning = "neighbouring pixels whose depths differ by less than this lie on one "
+                       "surface, and depth is interpolated between them",
             .unit = "m",
             .min = 0.0,
             .max = 1.0,
@@ -136,13 +136,13 @@ void OrientationSettings::Describe(Fields& f) {
   f.Choice(
       "mirror", mirror,
       {{"none", Mirror::kNone}, {"left_right", Mirror::kLeftRight}, {"up_down", Mirror::kUpDown}},
-      {.meaning = "exchange of sides, which undoes that of a recording stored as in a mirror"});
+      {.meaning = "mirroring of the image, to undo that of a recording stored mirrored"});
   f.Choice("turn", turn,
            {{"none", Turn::kNone},
             {"clockwise_90", Turn::kClockwise90},
             {"180", Turn::kHalf},
             {"counterclockwise_90", Turn::kCounterclockwise90}},
-           {.meaning = "turn that makes the person upright"});
+           {.meaning = "rotation of the image that makes the person upright"});
   f.Section("resize", resize, {.meaning = "size of the sequence's images"});
 }
 

@@ -1,4 +1,4 @@
-// A depth image cut, mirrored, turned and resized, and the camera that sees the result.
+// Crops, mirrors, rotates and resizes depth images, and computes the camera of the result.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace vitruvia {
 enum class Turn { kNone, kClockwise90, kHalf, kCounterclockwise90 };
 enum class Mirror { kNone, kLeftRight, kUpDown };
 
-// A part of the stored image, in its pixels.
+// The part of the stored image to keep, in its pixels.
 struct CropSettings {
   int left = 0, top = 0;
   int width = 0, height = 0;  // 0: up to the image's edge
@@ -21,14 +21,14 @@ struct CropSettings {
 };
 
 struct ResizeSettings {
-  int width = 0, height = 0;  // 0: as it is; both or none
+  int width = 0, height = 0;  // 0: unchanged; both or none are 0
   double smooth_within_m = 0.03;
 
   void Describe(Fields& fields);
   std::string Problem() const;
 };
 
-// Carried out in this order: crop, mirror, turn, resize.
+// Applied in this order: crop, mirror, turn, resize.
 struct OrientationSettings {
   CropSettings crop;
   Mirror mirror = Mirror::kNone;
@@ -38,15 +38,15 @@ struct OrientationSettings {
   void Describe(Fields& fields);
 };
 
-// "" or why an image of that size cannot be cropped so.
+// "" or the reason why an image of that size cannot be cropped like this.
 std::string CropProblem(const CropSettings& crop, int width, int height);
 
-// The camera of Oriented(…): a point that the stored image shows at a pixel is seen by this camera
-// where the oriented image shows it. Mirroring leaves x or y of the points with the other sign.
+// The camera of Oriented(…): it projects a point to the pixel at which the oriented image shows it.
+// Mirroring negates x or y of the points.
 PinholeCamera OrientedCamera(const PinholeCamera& stored, const OrientationSettings& settings);
 
-// Depth where it is resized is interpolated between neighbours of one surface (SampleDepth), never
-// across an edge.
+// Resizing interpolates depth between neighbours on one surface (SampleDepth), never across an
+// edge.
 DepthImage Oriented(const DepthImage& stored, const OrientationSettings& settings);
 
 }  // namespace vitruvia

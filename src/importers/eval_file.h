@@ -9,7 +9,7 @@
 //         930 188  int32    number of joints, then 32 × { int32 id, float32 [3] }
 //         930 704           the next frame
 //
-// Of markers and joints only the first so many are valid; one at (0, 0, 0) was not seen.
+// Only as many markers and joints as the count says are valid; one at (0, 0, 0) was not seen.
 #pragma once
 
 #include <filesystem>
@@ -26,18 +26,18 @@ inline constexpr int kEvalEntries = 32;  // room for markers, and for joints
 inline constexpr std::size_t kEvalNameBytes = 256;
 inline constexpr std::size_t kEvalFrameBytes = 930704;
 
-// In our camera frame: x right, y down, z forward, metres.
+// In the camera frame of this code (geometry/camera.h): x right, y down, z forward, metres.
 struct EvalFrame {
   int number = 0;
-  std::vector<Vector3f> points;             // row by row; zero where nothing was measured
+  std::vector<Vector3f> points;             // in row-major order; zero where nothing was measured
   std::map<std::string, Vector3d> markers;  // those that were seen
   std::map<int, Vector3d> joints;           // by id, those that were seen
 };
 
 // Reads frames on demand. All members throw DataError naming the file, the frame and the byte, what
-// was expected and what was found: a size that is no whole number of frames, another magic, too
-// many markers or joints, a name or id twice, a number that is not finite, a point behind the
-// camera.
+// was expected and what was found: a size that is not a multiple of the frame size, a different
+// magic number, too many markers or joints, a duplicate name or id, a number that is not finite, a
+// point behind the camera.
 class EvalFile {
  public:
   explicit EvalFile(std::filesystem::path file);

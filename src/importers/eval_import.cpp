@@ -217,7 +217,8 @@ std::string JumpWarning(int jumps, int frames, const std::string& where) {
 void EvalJointName::Describe(Fields& f) {
   f.Integer("id", id, {.meaning = "the joint's number in the file", .required = true});
   f.Text("name", name,
-         {.meaning = "what it is; scored are the skeleton's joints (FORMAT.md)", .required = true});
+         {.meaning = "name of the joint; only the skeleton's joints (FORMAT.md) are scored",
+          .required = true});
 }
 
 std::string EvalJointName::Problem() const {
@@ -228,7 +229,7 @@ std::string EvalJointName::Problem() const {
 
 void EvalImportSettings::Describe(Fields& f) {
   f.List("joints", joints,
-         {.meaning = "what the file's joints are, where their nearest markers do not tell"});
+         {.meaning = "names of the file's joints that their nearest markers do not determine"});
   f.Number("marker_within_m", marker_within_m,
            {.meaning = "a joint takes the name of its nearest marker up to this distance, on "
                        "average over all frames",

@@ -1,5 +1,5 @@
-// Recordings of the Stanford EVAL data set (importers/eval_file.h) made into sequences of ours:
-// depth and true joints; there is no true surface.
+// Converts recordings of the Stanford EVAL data set (importers/eval_file.h) to sequences with depth
+// and true joints, without a true surface.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace vitruvia {
 
-// What a joint's number means.
+// The joint that an id stands for.
 struct EvalJointName {
   int id = 0;
   std::string name;
@@ -22,7 +22,7 @@ struct EvalJointName {
 };
 
 struct EvalImportSettings {
-  std::vector<EvalJointName> joints;  // of all others the markers tell
+  std::vector<EvalJointName> joints;  // the others are named after markers
   double marker_within_m = 0.1;
   std::filesystem::path subject;  // "": none
   double person_within_m = 0.0;
@@ -33,21 +33,21 @@ struct EvalImportSettings {
   std::string Problem() const;
 };
 
-// What there was in the files.
+// What was found in the files.
 struct EvalImport {
   PinholeCamera camera;
   double camera_residual_px = 0.0;  // root mean square, columns and rows together
-  long points = 0;                  // that it was fitted to
+  long points = 0;                  // number of points that the camera was fitted to
   std::vector<std::string> joints;  // names in the order of ids
   UnmatchedJoints unmatched;
-  int jumps = 0;  // frames whose number is not the one after their predecessor's
+  int jumps = 0;  // frames whose number does not follow their predecessor's
 };
 
 // Writes the sequence (sequence/sequence.h): the files are parts of one recording, in this order.
-// The camera is fitted to the points. A joint is called what the settings say; else after the
-// marker that lies nearest on average, if that is nearer than marker_within_m and to no other joint
-// nearer still ("Left Elbow" is left_elbow); else joint_ID. DataError if the files are damaged or
-// no pinhole camera sees what they hold.
+// The camera is fitted to the points. A joint has its name from the settings; otherwise that of the
+// marker nearest to it on average, if that marker is nearer than marker_within_m and not nearer to
+// another joint ("Left Elbow" becomes left_elbow); otherwise joint_ID. DataError if the files are
+// damaged or no pinhole camera fits the points.
 EvalImport ImportEvalSequence(const std::vector<std::filesystem::path>& files,
                               const EvalImportSettings& settings,
                               const std::filesystem::path& folder);

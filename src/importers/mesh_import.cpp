@@ -26,10 +26,9 @@ namespace {
 
 constexpr float kNearestToCamera_m = 0.1f;
 
-// Where the subject's joints are, given the true surface in some pose: the affine motions A_b of
-// the bones that come nearest to Σ_b w_vb A_b x_v = y_v over all vertices v of the template (x_v at
-// rest, y_v now, w_vb its skinning weights), by linear least squares. Exact for a linearly skinned
-// truth.
+// Finds the subject's joints from the true surface in a pose: the affine motions A_b of the bones
+// that come nearest to Σ_b w_vb A_b x_v = y_v over all vertices v of the template (x_v at rest, y_v
+// now, w_vb its skinning weights), by linear least squares. Exact for a linearly skinned truth.
 class JointFinder {
  public:
   JointFinder(const BodyModel& subject, const TriangleMesh& true_rest)
@@ -176,7 +175,7 @@ void RequireOutwards(const TriangleMesh& mesh, const fs::path& file) {
                     file.string(), volume_m3));
 }
 
-// Meshes that correspond to nothing, each of its own triangles.
+// Imports meshes without correspondence to a template, each with its own triangles.
 void ImportOwnSurfaces(const MeshSequenceSettings& settings, const FrameFiles& files,
                        const fs::path& folder) {
   std::optional<BodyModel> subject;
@@ -217,12 +216,14 @@ void MeshSequenceSettings::Describe(Fields& f) {
            {.meaning = "frame of reference of the frames' meshes: subject (y up, front to +z) or "
                        "camera (y down, z away)"});
   f.Number("unit_m", unit_m,
-           {.meaning = "length that 1 stands for in frames and rest mesh",
+           {.meaning = "unit of length of the frames and the rest mesh",
             .unit = "m",
             .min = 1e-6,
             .max = 1e3});
-  f.Section("view", view, {.meaning = "the camera; its place counts only for the subject frame"});
-  f.Section("sensor", sensor, {.meaning = "what the camera makes of true depth"});
+  f.Section(
+      "view", view,
+      {.meaning = "the camera; its position is used only if the meshes are in the subject frame"});
+  f.Section("sensor", sensor, {.meaning = "sensor model of the camera"});
   f.Number("fps", fps, {.meaning = "frames per second", .unit = "1/s", .min = 1e-3, .max = 1e4});
   f.Integer("seed", seed, {.meaning = "seed of the sensor's noise", .min = 0, .max = 1e9});
 }

@@ -1,6 +1,7 @@
-// Mesh sequences of others made into sequences of ours: one mesh file for each frame is rendered as
-// a depth camera sees it; the meshes themselves are the truth. Meshes of one topology whose rest
-// pose is known correspond to the template; others are true surfaces of their own in each frame.
+// Converts mesh sequences from other sources: the mesh of each frame is rendered by a simulated
+// depth camera; the meshes themselves are the ground truth. Meshes of constant topology with a
+// known rest pose correspond to the template; otherwise each frame has a true surface with its own
+// triangles.
 #pragma once
 
 #include <filesystem>
@@ -33,10 +34,10 @@ struct MeshSequenceSettings {
   std::string Problem() const;
 };
 
-// Writes the sequence (sequence/sequence.h). With a rest mesh the true joints are where the motions
-// of the bones put them that explain the meshes best by the subject's own weights (least squares);
-// without one there are none. DataError naming the file if a mesh is damaged, has other triangles
-// than the rest mesh, or lies behind the camera.
+// Writes the sequence (sequence/sequence.h). With a rest mesh, the true joints follow from the bone
+// motions that, with the subject's skinning weights, fit the meshes best in the least-squares
+// sense; without one there are no true joints. DataError naming the file if a mesh is damaged, has
+// other triangles than the rest mesh, or lies behind the camera.
 void ImportMeshSequence(const MeshSequenceSettings& settings, const std::filesystem::path& folder);
 
 }  // namespace vitruvia

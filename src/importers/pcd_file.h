@@ -10,7 +10,7 @@ namespace vitruvia {
 
 struct OrganisedCloud {
   int width = 0, height = 0;
-  std::vector<Vector3f> points;  // row by row, as stored; NaN where nothing was measured
+  std::vector<Vector3f> points;  // in row-major order, as stored; NaN where nothing was measured
 };
 
 // Version 0.7, DATA ascii, binary or binary_compressed, with float32 fields x, y and z among

@@ -1,4 +1,4 @@
-// The intrinsics of one image axis from points and the pixels that saw them.
+// Fits the intrinsics of one image axis to points and their pixels.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Angles are radians inside; files and settings that are written by people hold degrees.
+// Angles are in radians in the code, and in degrees in settings and files that people write.
 #pragma once
 
 #include <numbers>

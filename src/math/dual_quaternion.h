@@ -30,8 +30,8 @@ struct DualQuaternion {
     return {r.toRotationMatrix(), Scalar(2) * (d * r.conjugate()).vec()};
   }
 
-  // Adds w·q, flipped into the hemisphere of `pivot` where the two point apart (q and −q are the
-  // same transform, but their blends with a third are not).
+  // Adds w·q, or −w·q if the real parts of q and `pivot` lie in opposite hemispheres (q and −q are
+  // the same transform, but blending them with another one gives different results).
   void AddWeighted(Scalar w, const DualQuaternion& q, const Eigen::Quaternion<Scalar>& pivot) {
     const Scalar signed_weight = q.real.dot(pivot) < Scalar(0) ? -w : w;
     real.coeffs() += signed_weight * q.real.coeffs();

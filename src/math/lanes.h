@@ -1,6 +1,6 @@
-// Eight numbers side by side, one in each lane of a vector register: an extension of GCC and Clang,
-// whose operators work lane by lane. A comparison gives a mask of 0 and −1 for each lane, and
-// `mask ? a : b` chooses lane by lane, which arrays of Eigen 3.4 do one by one.
+// SIMD vectors of eight numbers, by the vector extension of GCC and Clang, whose operators work
+// lane by lane. A comparison gives 0 or −1 in each lane, and `mask ? a : b` selects lane by lane;
+// Eigen 3.4 does not vectorise such a selection.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ using IntLanes = std::int32_t __attribute__((vector_size(sizeof(std::int32_t) * 
 inline FloatLanes Min(FloatLanes a, FloatLanes b) { return a < b ? a : b; }
 inline FloatLanes Max(FloatLanes a, FloatLanes b) { return a > b ? a : b; }
 
-// These three of numbers that fit an int.
+// The next three functions need numbers that fit an int.
 inline IntLanes Truncate(FloatLanes x) { return __builtin_convertvector(x, IntLanes); }
 inline FloatLanes Floor(FloatLanes x) {
   const FloatLanes truncated = __builtin_convertvector(Truncate(x), FloatLanes);
@@ -50,7 +50,7 @@ auto SmallestLane(const Lanes& v) {
   return least(two, __builtin_shufflevector(two, two, 1, 0, 3, 2, 5, 4, 7, 6))[0];
 }
 
-// The eight numbers of a column from `first` on.
+// The eight numbers of a column that begin at index `first`.
 template <class Lanes, class Scalar>
 Lanes LoadLanes(const std::vector<Scalar>& column, int first) {
   Lanes lanes;

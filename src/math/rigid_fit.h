@@ -13,8 +13,8 @@ struct PointPair {
 };
 
 // b_from_a that minimises Σ |b_from_a · in_a − in_b|² (Kabsch 1976) over the pairs pair_at(0) …
-// pair_at(count − 1), count ≥ 1; each is asked for twice. With fewer than three pairs, or all on a
-// line, it is one of several such motions.
+// pair_at(count − 1), count ≥ 1; each pair is evaluated twice. With fewer than three pairs, or
+// collinear points, the minimiser is not unique and one of them is returned.
 template <class PairAt>
 Rigidd FitRigid(std::size_t count, const PairAt& pair_at) {
   Vector3<double> mean_a = Vector3<double>::Zero(), mean_b = Vector3<double>::Zero();

@@ -11,11 +11,11 @@ namespace vitruvia {
 double Quantile(std::vector<double> values, double share);
 double Mean(std::span<const double> values);     // 0 of an empty sample
 double Maximum(std::span<const double> values);  // 0 of an empty sample
-// The same, kAbsent (core/absent.h) of an empty sample.
+// The same, but kAbsent (core/absent.h) for an empty sample.
 double MeanOrAbsent(std::span<const double> values);
 double MaximumOrAbsent(std::span<const double> values);
-// Spearman's: the correlation of the ranks, ties sharing their mean rank. NaN of fewer than three
-// pairs or where one side is constant. The samples are of one length.
+// Spearman's rank correlation; ties share their mean rank. NaN for fewer than three pairs or a
+// constant sample. Both samples must have the same length.
 double RankCorrelation(std::span<const double> a, std::span<const double> b);
 // The values that are not NaN: a series of frames holds NaN where there is no value.
 std::vector<double> PresentValues(std::span<const double> values);

@@ -11,7 +11,7 @@ using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
 template <class Scalar>
 using Matrix3 = Eigen::Matrix<Scalar, 3, 3>;
 
-// math/rigid.h defines it. Headers that only name it need no more than this.
+// Defined in math/rigid.h; this declaration suffices for headers that only name it.
 template <class Scalar>
 struct Rigid;
 using Rigidd = Rigid<double>;

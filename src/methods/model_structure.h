@@ -1,4 +1,4 @@
-// What the two papers' models are made of, for drawings of them.
+// Structure of the two papers' models, for figures.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// All tracking methods by name. Only this module knows them all.
+// All tracking methods by name. No other module depends on all of them.
 #pragma once
 
 #include <memory>

@@ -15,16 +15,17 @@ enum class Better { kLower, kHigher, kNeither };
 const char* Name(Better better);  // "lower is better" …
 
 // Where a metric is shown or used. Every metric that a run has is in the table of all runs and can
-// be compared on request; these are the selections for which there is no room for all.
+// be compared on request; these are the selections for places that do not show all metrics.
 enum class Place {
   kSummaryTable,  // the leading columns of the report's table of all runs
   kVariantTable,  // the report's table with one row for each variant
-  kComparison,    // variants against each other
+  kComparison,    // comparisons between variants
   kTerminal,      // the rows that `vitruvia run` prints
   kIndexPage,     // the table of all runs of an output folder
-  kGate,          // accuracy numbers that the regression gate holds against its baseline
+  kGate,          // accuracy numbers that the regression gate compares with its baseline
   kPictureNote,   // beside a run's pictures
-  kSpeedPlot,     // error axis of speed against error: the first of these that some run has
+  kSpeedPlot,     // error axis of the plot of speed against error: the first of these that some run
+                  // has
   kHistoryPlot,   // error axis of the gate's history: the first of these that the experiment has
 };
 
@@ -36,9 +37,9 @@ struct Metric {
   int decimals = 0;     // of the printed number
   Better better = Better::kNeither;
   std::vector<Place> shown_in{};
-  std::string definition{};  // full sentences
-  std::string formula{};     // in the symbols of FormulaSymbols; "" where there is nothing to add
-  std::string averaged_over{};    // what, and in which order; "" where nothing is averaged
+  std::string definition{};     // full sentences
+  std::string formula{};        // in the symbols of FormulaSymbols; "" if the definition needs none
+  std::string averaged_over{};  // the sets averaged over, in order; "" if nothing is averaged
   std::string hidden_and_lost{};  // full sentences: how hidden parts and lost frames count
 
   // A member of a family (see MetricFamilies): the family's key, and which member it is.
@@ -47,7 +48,7 @@ struct Metric {
   bool IsShownIn(Place place) const;
 };
 
-// What the formulas of all metrics mean by their letters, one sentence each.
+// Definitions of the symbols in the metrics' formulas, one sentence each.
 const std::vector<std::string>& FormulaSymbols();
 
 // Metrics of one kind, for pages and lists.
@@ -70,14 +71,14 @@ inline constexpr const char* kStepMax = "step_ms_max[{step}]";
 inline constexpr const char* kEnergyOfTerm = "energy_{term}";
 inline constexpr const char* kOwnSummary = "summary[{name}]";
 
-// The median time of a frame as a multiple of the calibration kernel's (core/calibration.h), taken
-// in the same process: compares across machines. Computed from a record, not stored.
+// The median time of a frame divided by that of the calibration kernel (core/calibration.h) in the
+// same process, for comparisons across machines. Computed from a record, not stored.
 inline constexpr const char* kCalibratedTime = "frame_median_per_calibration";
 
 // The metric of a key, or the member of a family with key and label filled in. ConfigError with the
 // nearest known key if there is none.
 Metric FindMetric(const std::string& key);
-// "" if the catalogue has the key, else what FindMetric would say.
+// "" if the catalogue has the key, otherwise the message of FindMetric's exception.
 std::string UnknownMetricProblem(const std::string& key);
 
 // In the order of the catalogue.

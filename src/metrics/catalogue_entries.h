@@ -22,7 +22,7 @@ std::vector<Metric> BodyErrors();          // fitted bodies and scans
 std::vector<Metric> Costs();               // time, effort and memory
 std::vector<Metric> SolverDiagnostics();   // what the solver reports
 
-// What several entries say of averages, and of hidden parts and lost frames.
+// Texts about averages, hidden parts and lost frames that several entries share.
 inline constexpr const char* kOverVertices = "the vertices of a frame, then the frames";
 inline constexpr const char* kOverVisible =
     "the visible vertices of a frame, then the frames that have one";

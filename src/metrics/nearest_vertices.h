@@ -1,4 +1,4 @@
-// Which vertex of one mesh stands where a vertex of another does, in a pose that both share.
+// Vertex correspondences between two meshes in the same pose.
 #pragma once
 
 #include <vector>

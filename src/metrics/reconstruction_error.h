@@ -1,5 +1,5 @@
-// How far an estimated surface lies from what was observed, and from the true surface, wherever on
-// it: unlike vertex_error.h, sliding along the surface costs nothing.
+// Distance of an estimated surface to the nearest observed points and to the nearest point of the
+// true surface: unlike vertex_error.h, insensitive to sliding along the surface.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@ namespace vitruvia {
 std::vector<double> DistancesToPoints(const std::vector<Vector3f>& points,
                                       const std::vector<Vector3f>& observed);
 
-// The distance of each point to the nearest place of a surface, metres; infinite where a coordinate
+// The distance of each point to the closest point of a surface, metres; infinite where a coordinate
 // is not finite. The mesh must have triangles.
 std::vector<double> DistancesToSurface(const std::vector<Vector3f>& points,
                                        const TriangleMesh& surface);

@@ -10,9 +10,8 @@
 
 namespace vitruvia {
 
-// Where the estimate's vertices belong on the true surface: by closest point in the rest pose,
-// which both meshes share, so that the meshes may differ. The same rest mesh gives the vertices
-// themselves.
+// Maps the estimate's vertices to the true surface, by closest point in the common rest pose, so
+// that the meshes may differ. With identical rest meshes each vertex maps to itself.
 class RestCorrespondence {
  public:
   RestCorrespondence(const TriangleMesh& estimate_rest, const TriangleMesh& true_rest);
@@ -25,18 +24,17 @@ class RestCorrespondence {
   std::vector<Triangle> true_triangles_;
 };
 
-// ‖estimate_i − truth_i‖ in metres. A pair that is not finite counts as infinitely far.
+// ‖estimate_i − truth_i‖ in metres. The error of a pair that is not finite is infinite.
 std::vector<double> VertexErrors(const std::vector<Vector3f>& estimate,
                                  const std::vector<Vector3f>& truth);
 
-// Which of the true positions the camera sees: those no more than visible_within_m behind the
-// z-buffer of the true mesh at their nearest pixel.
+// Whether the camera sees each of the points: a visible point is at most visible_within_m behind
+// the z-buffer of the true mesh at its nearest pixel.
 std::vector<bool> VisiblePoints(const std::vector<Vector3f>& points,
                                 const DepthImage& rendered_truth, const PinholeCamera& camera,
                                 double visible_within_m);
 
-// Mean and maximum over all, visible and hidden vertices, metres; NaN where there are none: an
-// error that was not measured is absent, not zero.
+// Mean and maximum over all, visible and hidden vertices, metres; NaN for a class without vertices.
 struct VertexErrorSummary {
   double mean_m, max_m;
   double visible_mean_m, visible_max_m;

@@ -1,5 +1,5 @@
-// A tree of bones or joints that a run without frames leaves behind for its report: tree.json in
-// the run's folder.
+// A tree of bones or joints that a run without frames stores for its report: tree.json in the run's
+// folder.
 #pragma once
 
 #include <filesystem>

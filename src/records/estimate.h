@@ -1,4 +1,4 @@
-// A tracker's estimate of a sequence, stored raw so that every metric can be computed again.
+// A tracker's raw estimate of a sequence, from which every metric can be recomputed.
 //
 //   estimate.json   EstimateFile (docs/stored_data.md)
 //   vertices.bin    float32 [frames][vertices][3], camera frame, metres, little-endian
@@ -26,7 +26,7 @@ struct FrameEstimate {
   double energy_rise = kAbsent;  // see TrackResult
   double rotation_drift = 0.0;  // largest ‖RᵀR − I‖ of any bone; 0 for methods without bones
   std::vector<Vector3<double>> joints;  // camera frame, metres
-  // Of each joint, m²: xx, xy, xz, yy, yz, zz; empty where the tracker gives none.
+  // Covariance of each joint, m²: xx, xy, xz, yy, yz, zz; empty if the tracker gives none.
   std::vector<double> joint_covariances_m2{};
   std::vector<std::string> unreliable_joints{};                 // by name
   double weak_directions = kAbsent, agreeing_digits = kAbsent;  // see TrackResult
@@ -54,8 +54,8 @@ class EstimateWriter {
   ~EstimateWriter();
   // std::invalid_argument naming frame and value if the result cannot be stored.
   void Append(const TrackResult& result, double frame_ms);
-  // Moves the folder into place; without it nothing is left behind. `tracker_memory_mb`: the most
-  // memory that the tracker held, in MB of 10⁶ bytes.
+  // Moves the folder into place; if it is not called, no files remain. `tracker_memory_mb`: the
+  // tracker's peak memory, in MB of 10⁶ bytes.
   void Finish(std::optional<double> tracker_memory_mb = std::nullopt);
 
  private:

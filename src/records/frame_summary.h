@@ -21,7 +21,8 @@ enum class FrameStatistic {
 struct FrameSummary {
   std::string name;    // stored as the metric "summary[NAME]"
   std::string series;  // of the record, over the frames
-  // Of joint_error_mean_m and joint_error_max_m: the mean and the maximum over these only.
+  // Only for joint_error_mean_m and joint_error_max_m: restricts the mean and the maximum to these
+  // joints.
   std::vector<std::string> joints;
   FrameStatistic statistic = FrameStatistic::kMean;
   double quantile = 0.9;

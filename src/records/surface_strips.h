@@ -1,4 +1,4 @@
-// Surfaces that a run without frames leaves behind for its report: strips of panels, each a view of
+// Surfaces that a run without frames stores for its report: strips of panels, each a view of
 // coloured meshes.
 //
 // In the run's folder: surfaces/strips.json, surfaces/NNN.ply (subject frame, metres) and, where a
@@ -15,7 +15,7 @@ namespace vitruvia {
 
 enum class SurfaceColor {
   kTruth,     // the colour that reports give the truth
-  kEstimate,  // and an estimate
+  kEstimate,  // the colour that reports give an estimate
   kError,     // values: metres
   kBone,      // values: a bone's index, or between two for a blend
 };

@@ -1,4 +1,4 @@
-// Where the bones of an estimated surface are: by the vertices that follow them most.
+// Bone poses of an estimated surface, fitted to the vertices with large weights for each bone.
 #pragma once
 
 #include <vector>
@@ -9,24 +9,24 @@ namespace vitruvia {
 
 class BonePlacement {
  public:
-  // The surface's rest pose is the subject's; its vertices have the weights of the subject's
-  // vertices nearest to them.
+  // The surface's rest pose must be the subject's; each vertex takes the weights of the nearest
+  // vertex of the subject.
   BonePlacement(const std::vector<Vector3f>& rest_vertices, const BodyModel& subject);
 
-  // The rigid motions, one for each bone, that carry the rest pose nearly onto the posed surface by
-  // linear blending: each in turn fitted to what the others leave (block coordinate descent). A
-  // bone that no vertex follows goes with its parent.
+  // The rigid motions of the bones that approximately map the rest pose to the posed surface by
+  // linear blend skinning, by block coordinate descent: each bone in turn is fitted to the residual
+  // of the others. A bone that no vertex follows moves with its parent.
   BoneTransforms Fit(const std::vector<Vector3f>& posed) const;
 
-  // How far each vertex is from where those motions carry it, metres: for methods that warp their
-  // template the length of the warps.
+  // Distance of each vertex from its place under those motions, metres: for methods that warp their
+  // template, the length of the warps.
   std::vector<float> Warps(const std::vector<Vector3f>& posed) const;
 
-  // The bone that each vertex follows most.
+  // The bone of each vertex's largest weight.
   std::vector<std::uint8_t> BoneOfVertex() const;
 
  private:
-  // A vertex that follows a bone about as much as any does.
+  // A vertex whose weight for a bone is near the bone's maximum.
   struct Follower {
     int vertex;
     double weight;

@@ -66,13 +66,13 @@ void SummarizeBound(const SumsOfJoints& sums, nlohmann::json& row) {
 
 void BoundSettings::Describe(Fields& f) {
   f.Integer("every", every,
-            {.meaning = "every how many frames the smallest covariance of joints that a single "
-                        "frame allows is computed; 0 is never",
+            {.meaning = "interval in frames at which the single-frame Cramér–Rao bound of the "
+                        "joints is computed; 0: never",
              .unit = "frames",
              .min = 0,
              .max = 1e6,
              .origin = Origin::kInput});
-  f.Section("prior", prior, {.meaning = "what is known of the pose before the frame"});
+  f.Section("prior", prior, {.meaning = "prior knowledge of the pose before the frame"});
 }
 
 void ScoreBound(const SequenceReader& sequence, const EstimateReader& estimate,

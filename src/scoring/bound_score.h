@@ -17,8 +17,8 @@ struct BoundSettings {
 };
 
 // Fills bound and error, as root mean squares over the frames in which a joint is visible, and
-// their quotient: of each joint, and over all. Nothing where `every` is 0; DataError where the
-// sequence has no bound.
+// their quotient, for each joint and over all joints. Does nothing if `every` is 0; DataError if
+// the sequence has no bound.
 void ScoreBound(const SequenceReader& sequence, const EstimateReader& estimate,
                 const BoundSettings& settings, RunRecord& record);
 

@@ -10,9 +10,9 @@
 
 namespace vitruvia {
 
-// Fills what the record says of joints. Compared are those that the sequence and the skeleton have
-// in common by name, in the frames in which the sequence knows them. Without any the record says
-// nothing of joints.
+// Fills the record's joint metrics. They compare the joints that the sequence and the skeleton have
+// in common by name, in the frames in which the sequence knows them. Without such joints, nothing
+// is filled.
 void ScoreJoints(const SequenceReader& sequence, const EstimateReader& estimate, RunRecord& record);
 
 // Errors of each compared joint in each frame: [frame][joint], NaN where the truth is not known.

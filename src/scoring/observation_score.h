@@ -7,8 +7,9 @@
 
 namespace vitruvia {
 
-// Fills what the record says of the estimate against what the camera saw, and what other cameras
-// saw; and of limb lengths. After the scores against the truth, where there are any.
+// Fills the record's metrics that compare the estimate with the depth of the camera and of other
+// cameras, and those of limb lengths. To be called after the scores against the truth, if there are
+// any.
 void ScoreObservation(const SequenceReader& sequence, const EstimateReader& estimate,
                       RunRecord& record);
 

@@ -7,9 +7,9 @@
 
 namespace vitruvia {
 
-// Fills what the record says of the distance between the estimate and the true surface of each
-// frame, in both directions, over all and over what the camera would see of each. Nothing where the
-// sequence has no such surfaces.
+// Fills the record's distances between the estimate and the true surface of each frame, in both
+// directions, over all points and over those visible to the camera. Does nothing if the sequence
+// has no such surfaces.
 void ScoreOwnSurfaces(const SequenceReader& sequence, const EstimateReader& estimate,
                       RunRecord& record);
 

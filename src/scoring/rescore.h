@@ -1,4 +1,4 @@
-// Metrics recomputed from what a run left behind, without tracking again.
+// Recomputes metrics from a run's stored estimate, without tracking again.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,9 @@
 
 namespace vitruvia {
 
-// The record that the run would have if it were scored now: its estimate and its sequence read
-// again, what names the run and says how it was tracked kept. DataError if either is missing or
-// damaged, or if the sequence is not the one that was tracked.
+// The record with all scores recomputed from the stored estimate and the sequence; the run's
+// identity, settings and provenance are kept. DataError if either is missing or damaged, or if the
+// sequence is not the one that was tracked.
 RunRecord Rescored(const std::filesystem::path& experiment_folder, const RunRecord& record,
                    const std::vector<FrameSummary>& summaries);
 

@@ -15,8 +15,7 @@ constexpr double kLostAbove_m = 0.05;
 
 enum class FrameState { kTracked, kLost, kUnknown };
 
-// Where nothing of the surface is visible, its error is absent and nobody can say whether the
-// tracker follows it.
+// If nothing of the surface is visible, its error is absent and the state is unknown.
 FrameState StateOf(double failed, double visible_error_m) {
   if (failed > 0.0) return FrameState::kLost;
   if (std::isnan(visible_error_m)) return FrameState::kUnknown;
@@ -24,8 +23,8 @@ FrameState StateOf(double failed, double visible_error_m) {
 }
 
 // frames_lost: lost frames. frames_to_recover: the most lost frames between two tracked ones; -1 if
-// the subject was not found again before the end. frames_to_notice: the most consecutive lost
-// frames of which the tracker does not say so. All only where there is a true surface.
+// the subject was not found again before the end. frames_to_notice: the longest run of lost frames
+// that the tracker does not report. All of them only with a true surface.
 void SummarizeLosses(const RunRecord& record, nlohmann::json& row) {
   const bool corresponding = record.frames.contains("l2_mean_visible_m");
   if (!corresponding && !record.frames.contains("two_way_visible_mean_m")) return;

@@ -6,7 +6,7 @@
 
 namespace vitruvia {
 
-// Adds to the row, each only where the record's frames hold what it is computed from:
+// Adds the following to the row, each only if the record's frames hold the series that it needs:
 //   frames_lost, frames_to_recover, frames_to_notice   where the true surface is known
 //   non_finite                       number of infinite values in all series
 //   condition_max, rotation_drift_max

@@ -73,8 +73,8 @@ std::vector<RunRecord::Step> StepTimes(const EstimateReader& estimate) {
   return steps;
 }
 
-// What could not be measured for want of truth, for people; "" if all was. A number that is absent
-// must not be taken for a zero.
+// Text that names what could not be measured without truth; "" if everything was. It prevents an
+// absent number from being taken for zero.
 std::string NotScored(const SequenceInfo& info) {
   const UnmatchedJoints unmatched = FindUnmatchedJoints(info.joints);
   std::vector<std::string> parts;
@@ -112,23 +112,22 @@ void SummarizeRun(const SequenceInfo& info, RunRecord& record) {
 }  // namespace
 
 void ScoreSettings::Describe(Fields& f) {
-  f.Integer(
-      "reconstruction_every", reconstruction_every,
-      {.meaning = "every how many frames visible vertices are held against the observed points "
-                  "and against the true surface; 0 is never",
-       .unit = "frames",
-       .min = 0,
-       .max = 1e6,
-       .origin = Origin::kInput});
+  f.Integer("reconstruction_every", reconstruction_every,
+            {.meaning = "interval in frames at which visible vertices are compared with the "
+                        "observed points and the true surface; 0: never",
+             .unit = "frames",
+             .min = 0,
+             .max = 1e6,
+             .origin = Origin::kInput});
   f.Choice("against_observation", against_observation,
            {{"without_truth", AgainstObservation::kWithoutTruth},
             {"always", AgainstObservation::kAlways},
             {"never", AgainstObservation::kNever}},
-           {.meaning = "when the estimate is held against what the camera saw: where the sequence "
-                       "has no true surface, always, or never",
+           {.meaning = "when the estimate is compared with the observed depth: only if the "
+                       "sequence has no true surface, always, or never",
             .origin = Origin::kInput});
   f.Section("bound", bound,
-            {.meaning = "the accuracy that a single frame allows, from truth and sensor"});
+            {.meaning = "the Cramér–Rao bound of single frames, from truth and sensor model"});
 }
 
 void ScoreRun(const SequenceReader& sequence, const EstimateReader& estimate,

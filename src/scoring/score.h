@@ -16,9 +16,9 @@ inline constexpr double kVisibleWithin_m = 0.01;
 inline constexpr double kJointThreshold_m = 0.1;
 inline constexpr double kCurveStep_m = 0.005, kCurveLast_m = 0.3;
 
-// When the estimate is held against what the camera saw.
+// When the estimate is compared with the observed depth.
 enum class AgainstObservation {
-  kWithoutTruth,  // where the sequence has no true surface
+  kWithoutTruth,  // only if the sequence has no true surface
   kAlways,
   kNever,
 };
@@ -31,10 +31,10 @@ struct ScoreSettings {
   void Describe(Fields& fields);
 };
 
-// Fills frames, curves, steps, diagonal and the summary's metrics of the record; what names the run
-// (ids, variant, scene, seed, config) is the caller's. Failed frames are in every mean. What the
-// sequence has no truth for is absent, never zero, and the summary's "not_scored" names it.
-// DataError if the estimate and the sequence do not belong together.
+// Fills frames, curves, steps, diagonal and the summary's metrics of the record; the caller fills
+// in the run's identity (ids, variant, scene, seed, config). Failed frames count in every mean.
+// Metrics for which the sequence has no truth are absent, never zero, and the summary's
+// "not_scored" names them. DataError if the estimate and the sequence do not belong together.
 void ScoreRun(const SequenceReader& sequence, const EstimateReader& estimate,
               const ScoreSettings& settings, RunRecord& record);
 

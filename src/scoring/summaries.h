@@ -10,11 +10,11 @@
 
 namespace vitruvia {
 
-// "" or which joint the skeleton has not.
+// "" or a message that names a joint missing from the skeleton.
 std::string JointsProblem(const FrameSummary& summary);
 
-// Adds them to the summary row of a scored record. One whose series the run has not, or not in any
-// frame, is absent.
+// Adds them to the summary row of a scored record. A summary is absent if the run does not have its
+// series or has no value in any frame.
 void AddSummaries(const SequenceReader& sequence, const EstimateReader& estimate,
                   const std::vector<FrameSummary>& summaries, RunRecord& record);
 

@@ -75,9 +75,8 @@ std::vector<Vector3f> Chosen(const std::vector<Vector3f>& points, const std::vec
   return kept;
 }
 
-// How far the estimate's visible vertices lie from what was observed (paper B, figure 6), and from
-// the true surface where there is one, which the paper could not have. Summed over every n-th
-// frame.
+// Distances of the estimate's visible vertices from the observed points (paper B, figure 6) and,
+// not in the paper, from the true surface if there is one. Summed over every n-th frame.
 class ReconstructionWatch {
  public:
   ReconstructionWatch(const SequenceReader& sequence, const EstimateReader& estimate, int every)

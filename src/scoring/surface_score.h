@@ -7,8 +7,8 @@
 
 namespace vitruvia {
 
-// Fills what the record says of the surface: against the true one where the sequence has one, and
-// every so many frames (0: never) against the observed points.
+// Fills the record's surface metrics: against the true surface if the sequence has one, and in
+// every `reconstruction_every`-th frame (0: never) against the observed points.
 void ScoreSurfaces(const SequenceReader& sequence, const EstimateReader& estimate,
                    int reconstruction_every, RunRecord& record);
 

@@ -1,4 +1,4 @@
-// The part of a score (score.h) that asks whether a tracker knows its error.
+// The part of a score (score.h) that evaluates a tracker's uncertainty estimates.
 #pragma once
 
 #include "records/estimate.h"
@@ -7,11 +7,11 @@
 
 namespace vitruvia {
 
-// Errors up to this are those of a joint that may be relied on.
+// A joint with an error up to this counts as reliable.
 inline constexpr double kReliableWithin_m = 0.05;
 
-// Fills coverage, negative log-likelihood and what the flags of unreliable joints are worth, over
-// the visible joints whose covariance the tracker gives. Nothing where it gives none.
+// Fills coverage, negative log-likelihood and the quality of the flags of unreliable joints, over
+// the visible joints with a covariance. Does nothing if the tracker gives no covariances.
 void ScoreUncertainty(const SequenceReader& sequence, const EstimateReader& estimate,
                       RunRecord& record);
 

@@ -15,7 +15,7 @@ class KdTree {
   KdTree(KdTree&&) noexcept;
   KdTree& operator=(KdTree&&) noexcept;
 
-  // Points must be finite. An empty set is allowed: nothing is ever found in it.
+  // Points must be finite. An empty set is allowed: queries then find nothing.
   void Build(const std::vector<Vector3f>& points);
 
   struct Neighbor {

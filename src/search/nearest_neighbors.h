@@ -1,4 +1,4 @@
-// Which of a set of points lies nearest to each of some others: three ways to find out.
+// Nearest neighbours of query points in a set of points, by one of three methods.
 #pragma once
 
 #include <memory>
@@ -10,9 +10,9 @@
 namespace vitruvia {
 
 enum class Association {
-  kKdTree,  // paper A: a tree of the points, built anew whenever they change
+  kKdTree,  // paper A: a kd-tree of the points, rebuilt whenever they change
   kWindow,  // paper B: points fall into pixel buckets; a window round the query's pixel is searched
-  kExhaustive,  // every point is looked at, eight at a time: no structure to build
+  kExhaustive,  // brute force, eight points at a time: no structure to build
 };
 
 // Points are in the camera frame, metres, finite.
@@ -20,9 +20,9 @@ class NearestNeighbors {
  public:
   virtual ~NearestNeighbors() = default;
   virtual void Build(const std::vector<Vector3f>& points) = 0;
-  // For each query its nearest point, or index -1 where none lies within max_distance_m (or, for a
-  // window, within it). Among points of one distance the one with the lowest index, except in a
-  // tree.
+  // For each query its nearest point, or index -1 if none lies within max_distance_m (with kWindow:
+  // and within the window). Of equally near points the one with the lowest index, except with
+  // kKdTree.
   virtual void FindNearest(const std::vector<Vector3f>& queries, float max_distance_m,
                            std::vector<KdTree::Neighbor>& neighbors) const = 0;
 };

@@ -1,4 +1,4 @@
-// Points sorted by the pixel that they fall on, to look for neighbours among those near in the
+// Points sorted by the pixel that they project to, so that neighbours are sought only nearby in the
 // image.
 #pragma once
 
@@ -13,13 +13,13 @@ class PixelGrid {
  public:
   explicit PixelGrid(const PinholeCamera& camera);
 
-  // Points (camera frame, metres) out of view are nobody's neighbours.
+  // Points (camera frame, metres) out of view are never found.
   void Build(const std::vector<Vector3f>& points);
 
-  // The nearest point to each query (camera frame) within max_distance_m, among those
-  // in the square cells of kCellPx pixels that lie within window_px columns and rows of the query's
-  // own cell, or within max_distance_m if that is fewer; of equally near ones the first. No
-  // neighbour for a query out of view.
+  // The nearest point to each query (camera frame) within max_distance_m, among those in the square
+  // cells of kCellPx pixels that lie within window_px columns and rows of the query's own cell, or
+  // within max_distance_m if that is fewer cells; of equally near points the first. A query out of
+  // view has no neighbour.
   void FindNearest(const std::vector<Vector3f>& queries, float max_distance_m, int window_px,
                    std::vector<KdTree::Neighbor>& neighbors) const;
 

@@ -1,4 +1,4 @@
-// Whether a depth camera sees a joint, which lies inside the body.
+// Visibility of joints in a depth camera.
 #pragma once
 
 #include <vector>
@@ -9,13 +9,14 @@
 
 namespace vitruvia {
 
-// A joint sits inside the body. Skin up to this much nearer to the camera than the joint counts as
-// the joint's own; anything nearer than that hides it. Measured on bodies of 60 to 110 kg seen from
-// all sides: a limb's own skin lies up to 0.08 m before its joints, a trunk's up to 0.20 m.
+// A joint sits inside the body. A surface up to this distance in front of the joint counts as the
+// joint's own skin; a surface farther in front hides the joint. Measured on bodies of 60 to 110 kg
+// seen from all sides: the skin of a limb lies up to 0.08 m in front of its joints, that of the
+// trunk up to 0.20 m.
 inline constexpr double kLimbJointBelowSkinM = 0.15;
 inline constexpr double kTrunkJointBelowSkinM = 0.22;  // pelvis, waist and chest
 
-// The one of the two for the joint of a bone (body/skeleton.h); a limb's for any other number.
+// The distance for the joint of a bone (body/skeleton.h); the limbs' value for any other number.
 double JointBelowSkin(int bone);
 
 // Whether the camera sees a joint: it projects into the image, and the depth rendered there is at

@@ -17,8 +17,8 @@ namespace {
 
 constexpr int kMostFrames = 1000000;  // six digits in the names of frames
 
-// sequence.json. Everything that a reader relies on must be there: a default taken for a camera
-// that the file does not state would spoil every number that follows.
+// sequence.json. Every field that a reader depends on must be present: a default camera in place of
+// a missing one would make all results wrong.
 struct SequenceHeader {
   static constexpr StoredFormat kFormat{kSequenceFormat, kSequenceVersion, kFirstSequenceVersion,
                                         "write the sequence again"};

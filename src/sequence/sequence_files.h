@@ -14,7 +14,7 @@ inline constexpr const char* kSequenceFormat = "vitruvia-sequence";
 inline constexpr int kSequenceVersion = 2;  // the newest that is written and read
 inline constexpr int kFirstSequenceVersion = 1;
 
-// Where the parts of a sequence lie.
+// Paths of the files of a sequence.
 struct SequenceFiles {
   std::filesystem::path folder;
 
@@ -47,10 +47,10 @@ struct SequenceFiles {
 // sequence.json. Both throw DataError naming the key where a value is missing or wrong.
 SequenceInfo ReadSequenceInfo(const std::filesystem::path& file);
 Json SequenceInfoJson(const SequenceInfo& info);
-// The oldest version of the format that can say what `info` says: readers of that version
-// understand the sequence.
+// The oldest version of the format that can represent `info`: readers of that version can read the
+// sequence.
 int VersionOf(const SequenceInfo& info);
-// "" or why no sequence can be as `info` says.
+// "" or the reason why `info` is inconsistent.
 std::string SequenceInfoProblem(const SequenceInfo& info);
 
 // truth/joints.json: one JointTruth for each frame, in the order of info.joints. The position of a
@@ -58,7 +58,7 @@ std::string SequenceInfoProblem(const SequenceInfo& info);
 std::vector<JointTruth> ReadJointTruth(const std::filesystem::path& file, const SequenceInfo& info);
 Json JointTruthJson(const std::vector<std::string>& names, const std::vector<JointTruth>& frames);
 
-// "" or what is wrong with one frame's joints.
+// "" or the problem of one frame's joints.
 std::string JointTruthProblem(const JointTruth& joints, std::size_t joint_count);
 
 }  // namespace vitruvia

@@ -19,8 +19,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "vertices.bin is little-endian");
 static_assert(sizeof(Vector3f) == 3 * sizeof(float));
 
-// A frame missing in the middle and one too many at the end are both the mark of a sequence that
-// was put together wrongly; a folder must hold exactly the frames that the header promises.
+// A folder must hold exactly the frames that the header states: a missing or an additional frame
+// shows that the sequence was assembled wrongly.
 void CheckFrameFiles(const fs::path& folder, int frames,
                      std::string (*name_of)(int) = SequenceFiles::FrameName) {
   for (int i = 0; i < frames; ++i) {
@@ -41,8 +41,8 @@ void CheckFrameFiles(const fs::path& folder, int frames,
   }
 }
 
-// Whether a part is there must be as sequence.json says: one that is lost must not pass for one
-// that never was.
+// A part must be present or absent as sequence.json says, so that a lost part is not mistaken for
+// one that never existed.
 void RequireFolder(const fs::path& folder, bool there) {
   if (there && !fs::is_directory(folder))
     throw DataError(fmt::format("{}: folder is missing", folder.string()));

@@ -1,4 +1,4 @@
-// Whether a true surface stays inside the image.
+// Checks whether a true surface stays inside the image.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace vitruvia {
 
-// Counts the frames in which some of the body is out of view.
+// Counts the frames in which part of the body is out of view.
 class ViewWatch {
  public:
   explicit ViewWatch(const PinholeCamera& camera) : camera_(camera) {}
 
   void Look(const std::vector<Vector3f>& vertices_in_camera, int frame);
 
-  // "" if the body never left.
+  // "" if the body was always in view.
   std::string Warning(int frame_count) const;
 
  private:

@@ -1,5 +1,5 @@
-// Normal equations of a linear least squares problem whose unknowns come in blocks of six: one
-// rigid increment for each bone. Knows nothing of bodies.
+// Normal equations of a linear least squares problem whose unknowns come in blocks of six, such as
+// one rigid increment for each bone.
 #pragma once
 
 #include <span>
@@ -22,7 +22,7 @@ class BlockNormalEquations {
     int block;
     Vector6d jacobian;
   };
-  // No block may stand twice in one row.
+  // A row must not contain a block twice.
   void AddRow(std::span<const Entry> entries, double residual, double weight);
 
   // Adds value to every diagonal element: keeps unobserved unknowns where they are.

@@ -10,16 +10,16 @@ namespace vitruvia {
 struct ConjugateGradientsSummary {
   int iterations = 0;
   bool converged = false;  // relative residual below the tolerance
-  // A direction of no or negative curvature, or one that is not a number, was met: the matrix is
-  // not positive definite.
+  // The curvature along a search direction was zero, negative or NaN: the matrix is not positive
+  // definite.
   bool found_non_positive_curvature = false;
-  double relative_residual = 0;  // ‖b − A x‖ / ‖b‖ as the recursion has it
+  double relative_residual = 0;  // ‖b − A x‖ / ‖b‖ of the recursively updated residual
 };
 
 enum class Preconditioner { kNone, kJacobi };
 
 // Solves A x = b from x = 0 until the residual has fallen by `relative_tolerance`, after
-// max_iterations, or at a direction of non-positive curvature; x is then what was reached. Unknowns
+// max_iterations, or at a direction of non-positive curvature; x is the last iterate. Unknowns
 // whose diagonal entry in A is 0 stay 0.
 class ConjugateGradients {
  public:

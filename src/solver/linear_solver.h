@@ -23,7 +23,7 @@ struct LinearSolverOptions {
 };
 
 enum class SolveStatus {
-  kSolved,  // to the tolerance of conjugate gradients, to rounding by Cholesky
+  kSolved,  // to the tolerance (conjugate gradients) or to rounding (Cholesky)
   // Conjugate gradients reached their iteration limit first: x reduces ½ xᵀA x − bᵀx, but A x = b
   // does not hold to the tolerance.
   kInexact,

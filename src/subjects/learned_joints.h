@@ -1,5 +1,5 @@
-// The joint detector of the skeleton-driven baseline: learnt from images of a population, and tried
-// on people and poses that it has not seen.
+// The joint detector of the skeleton-driven baseline: trained on images of a population, and tested
+// on unseen people and poses.
 #pragma once
 
 #include <filesystem>
@@ -20,10 +20,10 @@ struct JointLearningSettings {
 
 joints::JointModel LearnJointModel(const JointLearningSettings& settings, int threads);
 
-// Errors of a detector on images of other people of the same distribution, in other poses.
+// Errors of a detector on test images: other people of the same distribution, in other poses.
 struct DetectionErrors {
   int images = 0;
-  std::array<double, kBodyPointCount> mean_m{};  // where a point is found
+  std::array<double, kBodyPointCount> mean_m{};  // over the images in which the point is found
   std::array<double, kBodyPointCount> found{}, within_2_cm{}, within_5_cm{},
       within_10_cm{};  // shares of all images
 };

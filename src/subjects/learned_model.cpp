@@ -11,13 +11,14 @@ namespace fs = std::filesystem;
 void LearningSettings::Describe(Fields& f) {
   f.Section("database", database, {.meaning = "the people that are learnt from"});
   f.Section("shape", shape, {.meaning = "the space of their shapes"});
-  f.Integer("held_out", held_out,
-            {.meaning = "how many of the database's last subjects are kept for testing",
-             .min = 0,
-             .max = 100000});
+  f.Integer(
+      "held_out", held_out,
+      {.meaning = "number of subjects, the last of the database, that are held out for testing",
+       .min = 0,
+       .max = 100000});
   f.Section("weights", weights, {.meaning = "how skinning weights are learnt"});
   f.Text("weights_subject", weights_subject,
-         {.meaning = "whose pose examples the weights are learnt from"});
+         {.meaning = "subject from whose pose examples the weights are learnt"});
   f.Integer("tracking_vertices", tracking_vertices,
             {.meaning = "vertices of the mesh that is tracked",
              .min = 100,

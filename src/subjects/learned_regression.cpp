@@ -70,7 +70,7 @@ void RegressionLearningSettings::Describe(Fields& f) {
   f.Section("database", database, {.meaning = "the people and their pose examples"});
   f.Section("regression", regression, {.meaning = "the regression"});
   f.Integer("held_out", held_out,
-            {.meaning = "how many of the database's last people are kept for testing",
+            {.meaning = "number of people, the last of the database, that are held out for testing",
              .min = 1,
              .max = 100000});
 }

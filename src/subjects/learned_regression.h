@@ -17,11 +17,11 @@ struct RegressionLearningSettings {
   std::string Problem() const;
 };
 
-// How near surfaces made of true part rotations come to the examples, with the vertices' means on
-// each other.
+// Distance of surfaces predicted from true part rotations to the examples, after aligning the
+// vertices' means.
 struct RegressionErrors {
   double training_mean_m = 0.0, held_out_mean_m = 0.0;
-  double without_mean_m = 0.0;  // held out, the identity for every Q
+  double without_mean_m = 0.0;  // held-out subjects, with the identity for every Q
 };
 
 struct LearnedRegression {

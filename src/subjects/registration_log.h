@@ -1,5 +1,5 @@
-// Registrations of a sequence's meshes, kept on disk while the work lasts: interrupted, it goes on
-// after the last frame that is there.
+// Registrations of a sequence's meshes, stored on disk during the work, so that an interrupted run
+// resumes after the last stored frame.
 #pragma once
 
 #include <filesystem>
@@ -13,14 +13,14 @@ namespace vitruvia {
 class RegistrationLog {
  public:
   RegistrationLog() = default;  // kept in memory only
-  // Takes over what the file holds if it was written under the same key; otherwise begins anew. A
-  // last line that was cut off is dropped.
+  // Loads the file's registrations if it was written with the same key; otherwise starts empty. An
+  // incomplete last line is dropped.
   RegistrationLog(std::filesystem::path file, std::string key);
 
   const std::vector<Registration>& registrations() const { return registrations_; }
-  // Of the next frame. RunError if it cannot be written.
+  // Appends the registration of the next frame. RunError if it cannot be written.
   void Append(const Registration& registration);
-  // The file, once its content is no longer needed.
+  // Deletes the file.
   void Remove() const;
 
  private:

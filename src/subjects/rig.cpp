@@ -177,7 +177,8 @@ RigCost CostOf(const TriangleMesh& mesh, const BodyModel& subject,
   return cost;
 }
 
-// Each joint where the motions of its two bones agree best over all frames, held near the model's.
+// Places each joint where the motions of its two bones agree best over all frames, with a prior on
+// the model's position.
 void MoveJoints(const std::vector<BoneTransforms>& frame_from_rest, double slack_m,
                 Skeleton& skeleton) {
   constexpr double kDisagreement_m = 0.01;  // of two bones' motions at their joint
@@ -238,7 +239,8 @@ BodyModel Subject(const TriangleMesh& rest, SkinWeights weights, const BodyModel
   return subject;
 }
 
-// The body on every frame, the first one found anywhere, the others from the one before.
+// Registers the body in every frame: the first frame by a search, the others starting from the
+// frame before.
 Rig Registered(const std::vector<TriangleMesh>& frames, Registrar& registrar,
                RegistrationLog& log) {
   Rig rig;
@@ -313,10 +315,9 @@ void LearnFromFrames(const std::vector<Vertices>& frames, const std::vector<Tria
 }  // namespace
 
 void RigSettings::Describe(Fields& f) {
-  f.Choice(
-      "surface", surface, {{"mesh", RigSurface::kMesh}, {"model", RigSurface::kModel}},
-      {.meaning = "whose surface becomes the subject's: mesh: the meshes' own, closed and of the "
-                  "same triangles; model: the registered body's"});
+  f.Choice("surface", surface, {{"mesh", RigSurface::kMesh}, {"model", RigSurface::kModel}},
+           {.meaning = "source of the subject's surface: mesh: the input meshes, which are closed "
+                       "and have the same triangles; model: the registered body"});
   f.Section("registration", registration, {.meaning = "how a body is put onto the meshes"});
   f.Section("weights", weights, {.meaning = "how skinning weights are learnt from a sequence"});
   f.Integer("smoothing_steps", smoothing_steps,

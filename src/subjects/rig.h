@@ -1,5 +1,5 @@
-// Rigs a person's mesh, or a sequence of meshes: a subject that moves as the meshes do, made of
-// nothing but them and a shape space (learning/registration).
+// Rigs a person's mesh, or a sequence of meshes: builds an animatable subject from the meshes and a
+// shape space alone (learning/registration).
 #pragma once
 
 #include <optional>
@@ -12,11 +12,10 @@
 
 namespace vitruvia {
 
-// Which surface becomes the subject's.
+// The source of the subject's surface.
 enum class RigSurface {
-  kMesh,   // the meshes' own: closed, and the same triangles in all frames
-  kModel,  // that of the registered body: for meshes with holes, in pieces, or of changing
-           // triangles
+  kMesh,   // the input meshes, which must be closed and have the same triangles in all frames
+  kModel,  // the registered body: for meshes with holes, several components, or changing triangles
 };
 
 struct RigSettings {
@@ -31,11 +30,13 @@ struct RigSettings {
   void Describe(Fields& fields);
 };
 
-// What the T-pose cost.
+// Distortion caused by the transfer to the T-pose.
 struct RigCost {
-  double reposing_mean_m = 0.0, reposing_max_m = 0.0;  // of the mesh put back into its own pose
-  double volume_change = 0.0;                          // of the T-pose against the mesh, a share
-  int folded_triangles = 0;                            // turned inside out in the T-pose
+  double reposing_mean_m = 0.0, reposing_max_m = 0.0;  // error of the subject posed like the mesh
+                                                       // again
+  double volume_change = 0.0;                          // relative change from the mesh to the
+                                                       // T-pose
+  int folded_triangles = 0;                            // triangles that are inverted in the T-pose
 };
 
 struct Rig {
@@ -44,18 +45,18 @@ struct Rig {
   BodyModel model;                           // the body that was registered, in the T-pose
   std::vector<BoneTransforms> model_frames;  // frame_from_model
   std::vector<BoneTransforms> frames;        // frame_from_subject
-  int reference = 0;  // the frame with the best registration: weights are carried over in it
-  // Of surface kMesh only:
+  int reference = 0;  // the frame with the best registration, in which weights are transferred
+  // Only with kMesh:
   std::vector<double> rmse_m;   // of each frame: the skinned subject against the frame's mesh
   std::optional<RigCost> cost;  // of the reference frame
 };
 
-// One mesh, or one for each frame, in any pose; y up, metres. Of surface kMesh the weights are
-// carried over from the registered body and smoothed, and the T-pose follows by inverse skinning;
-// of several frames weights and bone transforms are then learnt from them (paper A, eqs. 2–5), and
-// the T-pose is that which they all agree on best. DataError naming the frame if one is no person,
-// is not closed, or has other triangles than the first. Frames whose registration the log has are
-// not registered again; the others' are added to it.
+// `frames`: one mesh, or one for each frame, in any pose; y up, metres. With kMesh the weights are
+// transferred from the registered body and smoothed, and the T-pose follows by inverse skinning;
+// with several frames, weights and bone transforms are then learnt from them (paper A, eqs. 2–5),
+// and the T-pose is the one that fits all frames best. DataError naming the frame if a mesh is not
+// a person, is not closed, or has different triangles from the first. Frames whose registration is
+// in the log are not registered again; the registrations of the others are added to it.
 Rig RigMeshes(const std::vector<TriangleMesh>& frames, Registrar& registrar,
               const RigSettings& settings, RegistrationLog& log);
 

@@ -1,4 +1,4 @@
-// What a rig looks like: strips of surfaces for a sheet of pictures.
+// Strips of surfaces that show a rig.
 #pragma once
 
 #include "records/surface_strips.h"
@@ -6,9 +6,10 @@
 
 namespace vitruvia {
 
-// The T-pose, then `count` frames evenly spread over all: the mesh, the registered body, the
-// skinned subject, its bones, and how far it is from the mesh (vertex by vertex of a mesh's own
-// surface, to the nearest point otherwise). Each is turned so that the person faces the viewer.
+// The T-pose, then `count` evenly spread frames, each with the mesh, the registered body, the
+// skinned subject, its bones, and its distance from the mesh (between corresponding vertices with
+// RigSurface::kMesh, otherwise to the nearest point). Each is rotated so that the person faces the
+// viewer.
 std::vector<SurfaceStrip> RigStrips(const Rig& rig, const std::vector<TriangleMesh>& frames,
                                     int count);
 

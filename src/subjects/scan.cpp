@@ -182,11 +182,11 @@ void ScanSettings::Describe(Fields& f) {
   if (f.Applies(source == ScanSource::kSequence)) {
     f.File("sequence", sequence, {.meaning = "folder of the sequence", .required = true});
     f.Section("first_view", first_view,
-              {.meaning = "where the first frame was taken from: the scan's floor and front follow "
-                          "from it; its camera is not used, the sequence has one"});
+              {.meaning = "camera pose of the first frame, from which the scan's floor and front "
+                          "follow; its intrinsics are not used, because the sequence has them"});
   }
   f.Section("fusion", fusion, {.meaning = "how frames become a surface"});
-  f.Section("check", check, {.meaning = "what the surface must be"});
+  f.Section("check", check, {.meaning = "requirements of the surface"});
 }
 
 ScanSettings ReadScanSettings(const std::filesystem::path& file, const Json& overrides) {

@@ -1,5 +1,5 @@
-// A scan from start to end: frames from a scene or a stored sequence, fused, checked and compared
-// with the truth where there is one.
+// A complete scan: frames from a scene or a stored sequence are fused, and the result is checked
+// and compared with the truth if there is one.
 #pragma once
 
 #include <filesystem>
@@ -38,7 +38,7 @@ ScanSettings ReadScanSettings(const std::filesystem::path& file,
 struct DistanceSummary {
   double mean_m = 0.0, p95_m = 0.0, max_m = 0.0;
 };
-// Of each vertex of `from` to the nearest point of the surface `to`.
+// Distances of the vertices of `from` to the nearest point of the surface `to`.
 DistanceSummary SurfaceDistance(const TriangleMesh& from, const TriangleMesh& to);
 
 struct CameraPathError {
@@ -46,10 +46,10 @@ struct CameraPathError {
   double translation_mean_m = 0.0, translation_max_m = 0.0;  // of the camera's centre
 };
 
-// What a scene knows and a scan does not.
+// Ground truth of a scanned scene.
 struct ScanTruth {
   BodyModel body;        // in the T-pose
-  TriangleMesh surface;  // as it stood at the first frame; subject frame
+  TriangleMesh surface;  // in the pose of the first frame; subject frame
   CameraPathError path;
   DistanceSummary scan_to_truth, truth_to_scan;
 };
@@ -57,7 +57,7 @@ struct ScanTruth {
 struct ScanResult {
   ScanSurface surface;             // .mesh: subject frame, metres
   std::vector<FusedFrame> frames;  // those used
-  double render_ms = 0.0;          // all frames; making or reading them
+  double render_ms = 0.0;          // rendering or reading all frames
   double fuse_ms = 0.0;            // all frames
   double extract_ms = 0.0;
   std::optional<ScanTruth> truth;  // of source kScene
@@ -66,13 +66,13 @@ struct ScanResult {
 // Fuses all frames, shows progress and can be interrupted. RunError naming the frame if the camera
 // is lost; DataError if there is no body, more than one, or a hole for a head.
 //
-// The subject frame is known from the first camera's place relative to the floor: the scene's, or
-// first_view. Alignment afterwards is relative to it.
+// The subject frame follows from the first camera's pose relative to the floor, which is that of
+// the scene, or first_view. Later alignments are relative to it.
 ScanResult Scan(const ScanSettings& settings);
-// The scene's scan of that person instead of the scene's own.
+// Scans that person in the scene instead of the scene's own.
 ScanResult ScanPerson(const ScanSettings& settings, const BodyModel& person);
 
-// What scan.json holds.
+// The content of scan.json.
 Json ScanRecord(const ScanSettings& settings, const ScanResult& result);
 
 }  // namespace vitruvia

@@ -1,5 +1,5 @@
-// A person's subject from depth frames alone: the registered body (learning/registration) of one
-// shape in all frames.
+// Estimates a person's subject from depth frames alone: the registered body
+// (learning/registration), with the same shape in all frames.
 #pragma once
 
 #include <vector>
@@ -25,7 +25,7 @@ struct SeenFrame {
   Registration registration;
   TriangleMesh seen;          // the person's measurements, camera frame
   TriangleMesh body;          // the registered body, camera frame
-  ObservationError distance;  // of the two
+  ObservationError distance;  // of `body` from the measurements
 };
 
 struct SeenSubject {
@@ -33,13 +33,13 @@ struct SeenSubject {
   std::vector<SeenFrame> frames;
 };
 
-// The person of a sequence whose frames show nobody else (masks). DataError that names the frame
-// and says why if the first frame that is looked at shows no person.
+// Estimates the person of a sequence whose frames show nobody else (masks). DataError naming the
+// frame and the reason if the first frame used shows no person.
 SeenSubject SubjectFromFrames(const SequenceReader& sequence, Registrar& registrar,
                               const SeenSubjectSettings& settings);
 
-// For each frame: what was seen, the body, both from the front and from the side, and the distance
-// of what was seen from the body.
+// For each frame: the measurements, the body, both from the front and from the side, and the
+// distance of the measurements from the body.
 std::vector<SurfaceStrip> SeenSubjectStrips(const SeenSubject& seen);
 Json SeenSubjectRecord(const SeenSubject& seen, const SeenSubjectSettings& settings);
 

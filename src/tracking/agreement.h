@@ -1,4 +1,4 @@
-// How well a posed model and a frame agree.
+// Agreement of a posed model with a frame.
 #pragma once
 
 #include <cstddef>
@@ -10,14 +10,15 @@ namespace vitruvia {
 struct Agreement {
   // Share of the cloud's points that the rendered model explains.
   double explained = 0.0;
-  // Share of V1 in V1 and V2: of the visible vertices that the frame can confirm or contradict.
+  // |V1| / (|V1| + |V2|): share of V1 in the visible vertices that the frame can confirm or
+  // contradict.
   double confirmed = 0.0;
-  // Share of V1 and V2 in all visible vertices; the others lie behind something.
+  // Share of V1 and V2 in all visible vertices; the others are occluded in the frame.
   double visible_fraction_evaluated = 0.0;
 
-  // How likely the body is where the model is, 0 … 1: `confirmed`, so that an object before or
-  // beside the body does not count against it; `explained` where so little of the model can be
-  // evaluated that only the cloud can tell.
+  // Score in 0 … 1 for the body being at the model's pose. It is `confirmed`, so that objects in
+  // front of or beside the body do not lower it; it is `explained` if too few vertices can be
+  // evaluated.
   double presence() const;
   // Of two poses for one frame the one with the higher score is preferred.
   double score() const { return explained * confirmed; }

@@ -9,8 +9,7 @@ namespace vitruvia {
 void AreaWatchSettings::Describe(Fields& f) {
   f.Number("lost_above", lost_above,
            {.meaning = "a frame is reported as lost when a larger share of the observed area is "
-                       "unexplained by the model or claimed by it in vain; 0: areas are not "
-                       "watched",
+                       "unexplained by the model or contradicts it; 0: no detection by areas",
             .min = 0,
             .max = 1,
             .origin = Origin::kTuned,
@@ -18,7 +17,7 @@ void AreaWatchSettings::Describe(Fields& f) {
   if (!f.Applies(lost_above > 0.0)) return;
   f.Number("found_below", found_below,
            {.meaning = "a lost subject counts as found again when a smaller share of the observed "
-                       "area is unexplained or claimed in vain",
+                       "area is unexplained by the model or contradicts it",
             .min = 0,
             .max = 1,
             .origin = Origin::kTuned,
@@ -32,8 +31,8 @@ void AreaWatchSettings::Describe(Fields& f) {
              .origin = Origin::kTuned,
              .source = "captured/tuning"});
   f.Number("reach_m", reach_m,
-           {.meaning = "points farther than this from every bone's axis are no lost limb of the "
-                       "subject",
+           {.meaning = "points farther than this from every bone's axis are out of reach: they do "
+                       "not belong to a lost limb",
             .unit = "m",
             .min = 0,
             .max = 100,
@@ -56,8 +55,8 @@ void AreaWatchSettings::Describe(Fields& f) {
              .origin = Origin::kGuessed,
              .source = "as recovery.pause"});
   f.Number("margin", margin,
-           {.meaning = "a pose found among the points out of reach is taken if it overlaps with "
-                       "what the frame shows round it by this much more than the current pose does",
+           {.meaning = "a pose found among the points out of reach replaces the current one if its "
+                       "overlap with the frame is higher by this",
             .min = 0,
             .max = 1,
             .origin = Origin::kGuessed,

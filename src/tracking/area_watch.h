@@ -1,4 +1,4 @@
-// Tells from the areas that model and frame do not account for (body_areas.h) that a frame is lost.
+// Detects lost frames from the areas in which model and frame disagree (body_areas.h).
 #pragma once
 
 #include <string>
@@ -24,17 +24,18 @@ class AreaWatch {
  public:
   explicit AreaWatch(const AreaWatchSettings& settings) : settings_(settings) {}
 
-  // Once for each frame with measurements. Lost is what disagrees by more than `lost_above`, until
-  // it has disagreed by less than `found_below` for `found_frames` frames.
+  // To be called once for each frame with measurements. The subject is lost when the disagreement
+  // exceeds `lost_above`, and until it has been below `found_below` for `found_frames` frames.
   void Assess(const BodyAreas& areas);
-  // A search gave a pose with these areas, which was taken.
+  // To be called after the pose of a search, with these areas, was adopted.
   void NoteFound(const BodyAreas& areas);
 
   bool is_lost() const { return is_lost_; }
-  // Whether enough of the frame is out of the model's reach to be another body, the subject's own
-  // perhaps, and no search has looked there lately: each that finds nothing doubles the pause.
+  // Whether the measurements out of the model's reach are enough for another body, possibly the
+  // subject's, and the pause since the last search has passed. Each search without success doubles
+  // the pause.
   bool is_search_due() const { return is_search_due_; }
-  std::string message() const;  // why a frame is lost, for a person
+  std::string message() const;  // why a frame is lost, for the user
 
  private:
   AreaWatchSettings settings_;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kEvery = 4;  // pixels along both axes: the middle needs no more
 
-// Without a copy of the points: it would count as the tracker's memory.
+// Does not copy the points, because a copy would count as the tracker's memory.
 std::optional<Vector3d> MiddleOf(const DepthImage& depth, const PinholeCamera& camera) {
   Vector3d sum = Vector3d::Zero();
   long count = 0;

@@ -1,16 +1,16 @@
-// Whether an estimate has left everything that the camera saw.
+// Detects estimates far away from all measurements.
 #pragma once
 
 #include "tracking/tracker.h"
 
 namespace vitruvia {
 
-// A vertex farther than this from the middle of the measured points, in diagonals of the subject at
-// rest, is an estimate gone astray: no pose and no noise puts one there.
+// An estimate is astray if a vertex is farther than this from the centre of the measured points, in
+// diagonals of the subject in the rest pose: no pose and no noise explains such a distance.
 inline constexpr double kAstrayBeyond_diagonals = 10.0;
 
-// A result that has gone astray and is not yet a failure becomes a lost frame, whichever method it
-// is of; the message says how far. Frames without measurements say nothing.
+// Marks an astray result that is not yet a failure as lost, for any method; the message states the
+// distance. Frames without measurements are not checked.
 void MarkAstray(const DepthFrame& frame, const PinholeCamera& camera, double diagonal_m,
                 TrackResult& result);
 

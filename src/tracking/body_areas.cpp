@@ -10,7 +10,8 @@
 namespace vitruvia {
 namespace {
 
-// A vertex is visible this far behind the rendered depth of its pixel, or slanted skin is not.
+// A vertex up to this far behind the rendered depth of its pixel is visible; otherwise slanted skin
+// would not be.
 constexpr float kVisibleWithin_m = 0.01f;
 
 // Square of the distance between a point and the line from `from` to `to`.
@@ -23,8 +24,8 @@ double SquaredDistance(const Vector3d& point, const Vector3d& from, const Vector
 
 enum class Evidence { kConfirmed, kContradicted, kCovered };
 
-// What the pixels round that of a visible vertex at depth z say of it. The best of them counts, in
-// the order of the enumerators but for what covers: half a pixel decides at silhouettes.
+// Evidence of the pixels round a visible vertex at depth z. The best evidence in the order of the
+// enumerators counts, except for covering pixels, because half a pixel decides at silhouettes.
 Evidence EvidenceAt(const DepthImage& depth, Pixel at, float z, const NearnessSettings& nearness) {
   bool is_covered = false;
   for (int v = at.v - nearness.edge_px; v <= at.v + nearness.edge_px; ++v) {

@@ -1,4 +1,4 @@
-// How far a posed body and a frame account for each other, bone by bone, by area.
+// Agreement of a posed body and a frame for each bone, by area.
 #pragma once
 
 #include <array>
@@ -12,10 +12,10 @@
 
 namespace vitruvia {
 
-// Areas across the line of sight, m². What the camera would see of a bone's skin is confirmed by
-// the frame, or contradicted (the frame shows something farther away, or nothing), or covered (by
-// something nearer). Skin outside of the image counts nowhere, nor do vertices on a silhouette
-// whose pixel the rendered model leaves empty.
+// Areas projected along the line of sight, m². The visible part of a bone's skin is confirmed by
+// the frame, contradicted (the frame shows something farther away, or nothing) or covered (by
+// something nearer). Not counted are skin outside the image, and vertices on a silhouette whose
+// pixel is empty in the rendered model.
 struct BoneAreas {
   double confirmed_m2 = 0.0, contradicted_m2 = 0.0, covered_m2 = 0.0;
   double unexplained_m2 = 0.0;  // of the points near this bone that the model does not explain
@@ -27,14 +27,14 @@ struct BoneAreas {
 struct BodyAreas {
   std::array<BoneAreas, kBoneCount> bones;
   double observed_m2 = 0.0;  // of all points
-  double stray_m2 = 0.0;     // of the unexplained points that are out of every bone's reach
+  double stray_m2 = 0.0;     // of the unexplained points that are out of reach of all bones
 
   BoneAreas total() const;
-  // Share of the observed area within reach that is unexplained, or that the model claims and the
-  // frame contradicts. 0 where nothing is observed there.
+  // Unexplained and contradicted area as a share of the observed area within reach. 0 if nothing is
+  // observed there.
   double disagreement() const;
-  // Confirmed area in the union of what is visible of the model and what is unexplained within
-  // reach: how much what is tracked looks like the subject, whatever else the frame shows.
+  // Confirmed area divided by the union of the model's visible area and the unexplained area within
+  // reach: similarity of the tracked object to the subject, independent of the rest of the frame.
   double overlap() const;
 };
 
@@ -49,7 +49,7 @@ class BodyAreaMeter {
   // `vertices`: the subject's surface in the pose `camera_from_rest` (camera frame, metres).
   BodyAreas Measure(const std::vector<Vector3f>& vertices, const BoneTransforms& camera_from_rest,
                     const DepthImage& depth, const NearnessSettings& nearness);
-  // Of the frame last measured, the depth of the points out of every bone's reach alone.
+  // The depth of only those points of the last measured frame that are out of reach of all bones.
   DepthImage StrayDepth(const DepthImage& depth) const;
 
  private:

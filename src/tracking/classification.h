@@ -1,5 +1,5 @@
-// Paper A's sorting of the visible model and the observed points, and the pairs that follow from
-// it.
+// Paper A's classification of visible vertices and observed points, and the correspondences that
+// follow from it.
 #pragma once
 
 #include <vector>
@@ -9,17 +9,18 @@
 
 namespace vitruvia {
 
-// What to make of a vertex that lies behind the captured surface.
+// Class of a vertex that lies behind the captured surface.
 enum class BehindSurface {
-  kElsewhere,  // paper: it is V2 and looks for a point
-  kHidden,     // another part of the body may hide it: it is neither V1 nor V2
+  kElsewhere,  // paper: it is V2 and is paired with a point
+  kHidden,     // another part of the body may hide it, so it is neither V1 nor V2
 };
 
-// How near is near.
+// Thresholds of nearness.
 struct NearnessSettings {
   float depth_m;  // along z, at the same pixel
-  // Depth jumps at silhouettes, where half a pixel decides between the body and what is behind it.
-  // What is near within this many columns and rows counts as explained, though it is no V1.
+  // At silhouettes, depth jumps between body and background within half a pixel. A vertex or point
+  // that is near in depth to a pixel within this many columns and rows counts as explained,
+  // although it is not in V1.
   int edge_px;
   float smooth_m;  // see SampleDepth
   BehindSurface behind = BehindSurface::kElsewhere;

@@ -1,4 +1,4 @@
-// The separate things that a frame shows.
+// Connected parts of a frame's point cloud.
 #pragma once
 
 #include <vector>

@@ -1,12 +1,13 @@
-// What a tracker knows of its sensor's noise.
+// A tracker's model of its sensor's noise.
 #pragma once
 
 #include "config/settings.h"
 
 namespace vitruvia {
 
-// Standard deviations in the form of Nguyen, Izadi & Lovell, 3DIMPVT 2012: of depth, growing with
-// the distance, and across the line of sight, which is a constant angle. All zero: no noise.
+// Standard deviations in the form of Nguyen, Izadi & Lovell, 3DIMPVT 2012: along depth, growing
+// with the distance, and across the line of sight, where it is a constant angle. All zero: no
+// noise.
 struct DepthNoise {
   double axial_base_m = 0.0, axial_growth_per_m = 0.0, axial_near_m = 0.0;
   double lateral_rad = 0.0;

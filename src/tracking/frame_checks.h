@@ -1,12 +1,12 @@
-// What every tracker asks of a frame before it uses it.
+// Checks of a frame that all trackers make.
 #pragma once
 
 #include "tracking/tracker.h"
 
 namespace vitruvia {
 
-// std::invalid_argument with the frame's index and both sizes unless the image has as many columns
-// and rows as the camera that Start was given.
+// std::invalid_argument with the frame's index and both sizes if the size of the image differs from
+// that of the camera given to Start.
 void CheckFrameSize(const DepthFrame& frame, const PinholeCamera& camera);
 
 }  // namespace vitruvia

@@ -93,25 +93,25 @@ void DepthFaultSettings::Describe(Fields& f) {
             {"not_a_number", DepthFault::kNotANumber},
             {"infinite", DepthFault::kInfinite},
             {"negative", DepthFault::kNegative}},
-           {.meaning = "what a damaged pixel holds: nothing, the largest number of a 16-bit image, "
-                       "no number, infinity, or its depth with the wrong sign"});
+           {.meaning = "value of a damaged pixel: no measurement, the largest number of a 16-bit "
+                       "image, NaN, infinity, or its depth with the wrong sign"});
   if (!f.Applies(kind != DepthFault::kNone)) return;
   f.Integer("first_frame", first_frame,
             {.meaning = "first damaged frame", .unit = "frames", .min = 0, .max = 1e6});
   f.Integer("frames", frames,
-            {.meaning = "how many frames are damaged", .unit = "frames", .min = 1, .max = 1e6});
+            {.meaning = "number of damaged frames", .unit = "frames", .min = 1, .max = 1e6});
   f.Choice(
       "place", place,
       {{"image", FaultPlace::kImage}, {"region", FaultPlace::kRegion}, {"bone", FaultPlace::kBone}},
-      {.meaning = "which part of an image is damaged: all of it, a rectangle, or what is seen "
-                  "near a bone"});
+      {.meaning =
+           "damaged part of an image: all of it, a rectangle, or the surroundings of a bone"});
   if (f.Applies(place == FaultPlace::kRegion)) {
-    f.Numbers("region_px", region_px,
-              {.meaning = "left, top, right and bottom of the damaged rectangle, both ends in it "
-                          "(region only)",
-               .unit = "px",
-               .min = 0.0,
-               .max = 1e5});
+    f.Numbers(
+        "region_px", region_px,
+        {.meaning = "left, top, right and bottom of the damaged rectangle, inclusive (region only)",
+         .unit = "px",
+         .min = 0.0,
+         .max = 1e5});
   }
   if (f.Applies(place == FaultPlace::kBone)) {
     f.Text("bone", bone,
@@ -125,11 +125,12 @@ void DepthFaultSettings::Describe(Fields& f) {
   }
   f.Number("share", share,
            {.meaning = "share of the damaged part's pixels, chosen by chance", .min = 0, .max = 1});
-  f.Integer("pixels_spared", pixels_spared,
-            {.meaning = "measured pixels that stay whole, nearest to the image's middle",
-             .unit = "px",
-             .min = 0,
-             .max = 1e8});
+  f.Integer(
+      "pixels_spared", pixels_spared,
+      {.meaning = "number of measured pixels, nearest to the image's centre, that are not damaged",
+       .unit = "px",
+       .min = 0,
+       .max = 1e8});
 }
 
 std::string DepthFaultSettings::Problem() const {
@@ -143,9 +144,10 @@ std::string DepthFaultSettings::Problem() const {
 
 void SubjectFaultSettings::Describe(Fields& f) {
   f.Text("bone_without_vertices", bone_without_vertices,
-         {.meaning = "a bone whose weights its parent gets, so that no vertex follows it"});
-  f.Integer("duplicate_triangles", duplicate_triangles,
-            {.meaning = "triangles that stand twice in the template", .min = 0, .max = 1e6});
+         {.meaning = "a bone whose weights are moved to its parent, so that no vertex follows it"});
+  f.Integer(
+      "duplicate_triangles", duplicate_triangles,
+      {.meaning = "number of the template's triangles that are duplicated", .min = 0, .max = 1e6});
   f.Integer("degenerate_triangles", degenerate_triangles,
             {.meaning = "triangles added to the template with two corners in one vertex",
              .min = 0,
@@ -174,9 +176,9 @@ bool InputFaultSettings::AreNone() const {
 }
 
 void InputFaultSettings::Describe(Fields& f) {
-  f.Section("depth", depth, {.meaning = "what is wrong with some depth images"});
-  f.Section("subject", subject, {.meaning = "what is wrong with the template"});
-  f.Section("view", view, {.meaning = "what is wrong with how the sequence is seen"});
+  f.Section("depth", depth, {.meaning = "faults of single depth images"});
+  f.Section("subject", subject, {.meaning = "faults of the template"});
+  f.Section("view", view, {.meaning = "faults of the view of the whole sequence"});
 }
 
 std::vector<BoneSegment> BoneSegments(const std::string& bone,

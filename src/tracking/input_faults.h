@@ -1,6 +1,6 @@
-// Damage done to what a tracker is handed. The sequence and its truth stay whole, so the scores say
-// what the damage cost. For what no image file can hold (numbers that are none) and no generator
-// makes (a template with broken triangles).
+// Faults injected into a tracker's input. The sequence and its truth stay intact, so the scores
+// measure the effect of the fault. For faults that an image file cannot store (NaN) or that no
+// generator produces (a template with invalid triangles).
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace vitruvia {
 
-// What a damaged pixel holds.
+// The value of a damaged pixel.
 enum class DepthFault {
   kNone,
   kZero,     // no measurement
@@ -24,7 +24,7 @@ enum class DepthFault {
   kNegative,  // the depth behind the camera
 };
 
-// Which part of an image is damaged.
+// The part of an image that is damaged.
 enum class FaultPlace { kImage, kRegion, kBone };
 
 struct DepthFaultSettings {
@@ -32,11 +32,12 @@ struct DepthFaultSettings {
   int first_frame = 0;
   int frames = 1;
   FaultPlace place = FaultPlace::kImage;
-  std::array<double, 4> region_px{0.0, 0.0, 0.0, 0.0};  // left, top, right, bottom; both ends in it
+  std::array<double, 4> region_px{0.0, 0.0, 0.0, 0.0};  // left, top, right, bottom; inclusive
   std::string bone;
-  double bone_radius_m = 0.15;  // round the bone
-  double share = 1.0;           // of the damaged part's pixels
-  int pixels_spared = 0;        // measured ones, nearest to the image's middle
+  double bone_radius_m = 0.15;  // about the bone
+  double share = 1.0;           // share of the damaged part's pixels
+  int pixels_spared = 0;        // number of measured pixels, nearest to the centre of the image,
+                                // that are not damaged
 
   bool Damages(int frame) const {
     return kind != DepthFault::kNone && frame >= first_frame && frame < first_frame + frames;
@@ -47,9 +48,10 @@ struct DepthFaultSettings {
 
 struct SubjectFaultSettings {
   std::string bone_without_vertices;  // its weights go to its parent
-  int duplicate_triangles = 0;        // that stand twice
-  int degenerate_triangles = 0;       // that have two corners in one vertex
-  double size_factor = 1.0;           // on all lengths of the template and its skeleton
+  int duplicate_triangles = 0;        // number of triangles that are duplicated
+  int degenerate_triangles = 0;       // number of triangles of which two corners become the same
+                                      // vertex
+  double size_factor = 1.0;           // factor on all lengths of the template and its skeleton
 
   void Describe(Fields& fields);
   std::string Problem() const;
@@ -64,26 +66,26 @@ struct InputFaultSettings {
   void Describe(Fields& fields);
 };
 
-// From the true joint of a bone to that of a bone that hangs on it, camera frame, metres.
+// From the true joint of a bone to that of one of its children, camera frame, metres.
 using BoneSegment = std::array<Vector3d, 2>;
 
-// What a fault depends on beside its settings.
+// The inputs of a fault other than its settings.
 struct FaultContext {
   double depth_unit_m = 0.001;
   int seed = 1;
   PinholeCamera camera;
-  std::vector<BoneSegment> bone{};  // of a fault at a bone, in this frame
+  std::vector<BoneSegment> bone{};  // for a fault at a bone: its segments in this frame
 };
 
-// Of the named bone, given the true joints in the order of Bones(). A bone that carries no other
-// has one segment, of no length.
+// Segments of the named bone, given the true joints in the order of Bones(). A bone without
+// children has one segment of zero length.
 std::vector<BoneSegment> BoneSegments(const std::string& bone, const std::vector<Vector3d>& joints);
 
-// The frame as the tracker gets it. The same seed damages the same pixels.
+// Damages the frame before the tracker gets it. The same seed damages the same pixels.
 void DamageFrame(const DepthFaultSettings& settings, const FaultContext& context,
                  DepthFrame& frame);
 
-// The subject as the tracker gets it.
+// Damages the subject before the tracker gets it.
 void DamageSubject(const SubjectFaultSettings& settings, Subject& subject);
 
 }  // namespace vitruvia

@@ -11,7 +11,7 @@ void ObservedJoints::Describe(Fields& f) {
 }
 
 void JointObservations::Describe(Fields& f) {
-  f.Text("source", source, {.meaning = "who observed the joints, in words"});
+  f.Text("source", source, {.meaning = "detector that observed the joints, as text"});
   f.Texts("joints", joints, {.meaning = "names of the joints"});
   f.List("frames", frames, {.meaning = "the joints of each frame of a sequence"});
 }

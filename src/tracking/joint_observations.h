@@ -1,5 +1,5 @@
-// Joint positions that some detector gives for each frame, as a file (format
-// "vitruvia-joint-observations"): for trackers that are driven by joints found elsewhere.
+// Joint positions from an external detector for each frame, as a file (format
+// "vitruvia-joint-observations"), for trackers that use such joints as input.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct JointObservations {
   static constexpr StoredFormat kFormat{"vitruvia-joint-observations", 1, 1,
                                         "make the observations again"};
 
-  std::string source;               // who observed, in words: a stand-in says so
+  std::string source;               // the detector that made the observations, as text
   std::vector<std::string> joints;  // names (body/body_points.h), in the order of positions
   std::vector<ObservedJoints> frames;
 
@@ -31,8 +31,8 @@ struct JointObservations {
   std::string Problem() const;  // a frame with more or fewer positions than names
 };
 
-// What the observations say of the body's points in a frame; joints of other names are left out.
-// DataError if the file has no such frame.
+// The observed positions of the body's points in a frame; joints of other names are ignored.
+// DataError if the file does not have the frame.
 std::array<std::optional<Vector3<double>>, kBodyPointCount> ObservedPoints(
     const JointObservations& observations, int frame);
 

@@ -25,15 +25,15 @@ double LongestAxis_m(const Matrix3<double>& covariance) {
 
 void UncertaintySettings::Describe(Fields& f) {
   f.Number("inflation", inflation,
-           {.meaning = "factor on the deviation of joints that sensor noise alone would give; 0: "
-                       "no covariances are estimated",
+           {.meaning = "factor on the standard deviation of joints that follows from sensor noise "
+                       "alone; 0: no covariances are estimated",
             .min = 0,
             .max = 1e6,
             .source = "configs/methods/realtime_scape_uncertain.json holds what was calibrated"});
   f.Section("sensor", sensor, {.meaning = "noise of the sensor that covariances are computed for"});
   f.Number("model_deviation_m", model_deviation_m,
-           {.meaning = "standard deviation, along each axis, of how far the joints of the model "
-                       "are from those of the person",
+           {.meaning = "standard deviation, along each axis, of the distance between the model's "
+                       "joints and the person's",
             .unit = "m",
             .min = 0,
             .max = 1,

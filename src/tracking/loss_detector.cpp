@@ -28,7 +28,7 @@ FrameVerdict LossDetector::Assess(const Agreement& agreement) {
     is_first_ = false;
     SetUsual(agreement);
     if (!is_low) return FrameVerdict::kAgrees;
-    // No better frame is to be expected, so patience does not help.
+    // Searches at once: waiting does not help if no better frame is expected.
     return settings_.patience > 0 ? FrameVerdict::kSearch : FrameVerdict::kDisagrees;
   }
   if (!is_low) {

@@ -1,4 +1,4 @@
-// Detects from frame to frame that a subject is lost.
+// Detects that a subject is lost, frame by frame.
 #pragma once
 
 #include "tracking/agreement.h"
@@ -12,17 +12,17 @@ enum class FrameVerdict {
   kSearch,     // agreement is low, and other poses should be searched now
 };
 
-// Learns the usual level of agreement and compares each frame with it.
+// Learns the usual agreement of a subject and compares each frame with it.
 class LossDetector {
  public:
   explicit LossDetector(const RelocalizationSettings& settings) : settings_(settings) {}
 
   // To be called once for each frame with measurements. kSearch: agreement has been low for
-  // `patience` frames, empty ones included, or is low in the first frame already; what the first
-  // frame reaches becomes the usual level.
+  // `patience` frames, empty ones included, or is already low in the first frame. The agreement of
+  // the first frame becomes the usual level.
   FrameVerdict Assess(const Agreement& agreement);
   void NoteEmptyFrame() { ++num_low_; }
-  // A search found a pose with this agreement, and its pose was taken.
+  // To be called after the pose of a search, with this agreement, was adopted.
   void NoteFound(const Agreement& agreement);
 
   bool is_lost() const { return num_low_ > 0 || is_doubtful_; }
@@ -37,12 +37,12 @@ class LossDetector {
   bool is_first_ = true;
   bool is_doubtful_ = false;
   int num_low_ = 0;              // consecutive frames
-  int frames_until_search_ = 0;  // at the earliest
+  int frames_until_search_ = 0;  // minimum number of frames until the next search
 };
 
-// Whether the pose with agreement `found` should replace the current one: its score is higher by
-// `margin`, and no smaller share of the model is confirmed, so that an object that hides the body
-// is not taken for it.
+// Whether the pose with agreement `found` should replace the current one: its score must be higher
+// by `margin`, and its confirmed share must not be smaller, so that an object that hides the body
+// is not mistaken for it.
 bool IsClearlyBetter(const Agreement& found, const Agreement& current, double margin);
 
 }  // namespace vitruvia

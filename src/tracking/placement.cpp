@@ -58,13 +58,13 @@ Rigidd CentroidOnCentroid(const RestSurface& rest, const PointCloud& cloud) {
 }  // namespace
 
 void PlacementSettings::Describe(Fields& f) {
-  f.Integer("iterations", iterations,
-            {.meaning = "number of rigid closest-point iterations that put the rest pose onto the "
-                        "first frame",
-             .min = 0,
-             .max = 1000,
-             .origin = Origin::kGuessed,
-             .source = "paper A: the subject starts in a predetermined T-pose"});
+  f.Integer(
+      "iterations", iterations,
+      {.meaning = "number of rigid ICP iterations that align the rest pose with the first frame",
+       .min = 0,
+       .max = 1000,
+       .origin = Origin::kGuessed,
+       .source = "paper A: the subject starts in a predetermined T-pose"});
   f.Number("trim", trim,
            {.meaning = "share of the pairs, those with the largest distances, left out of each "
                        "rigid fit of the first placement",

@@ -1,4 +1,4 @@
-// First placement: puts the rest pose onto the first frame.
+// First placement: aligns the rest pose with the first frame.
 #pragma once
 
 #include <array>
@@ -25,10 +25,10 @@ struct RestSurface {
   const std::vector<Triangle>& triangles;
 };
 
-// camera_from_subject of a body that stands in the rest pose, upright and facing the camera:
-// centroid on centroid, then trimmed rigid closest-point iterations of the cloud, which must not be
-// empty, against the visible vertices. A vertex is visible within `visible_within_m` of the depth
-// that `rasterizer` renders. The iterations start displaced by the settings' initial offset.
+// camera_from_subject of a body that stands in the rest pose, upright and facing the camera: aligns
+// the centroids, then runs trimmed rigid ICP between the cloud, which must not be empty, and the
+// visible vertices. A vertex is visible within `visible_within_m` of the depth that `rasterizer`
+// renders. The iterations start displaced by the settings' initial offset.
 Rigidd PlaceRestPose(const RestSurface& rest, const PointCloud& cloud, const PinholeCamera& camera,
                      double visible_within_m, const PlacementSettings& settings,
                      MeshRasterizer& rasterizer);

@@ -11,14 +11,14 @@ class PoseMemory {
  public:
   using Distance = double (*)(const Pose&, const Pose&);
 
-  // Holds at most `capacity` poses, at least 1, every two of them `min_distance` apart or more.
+  // Holds at most `capacity` (≥ 1) poses, each at least `min_distance` from all others.
   PoseMemory(int capacity, double min_distance, Distance distance)
       : capacity_(static_cast<std::size_t>(capacity)),
         min_distance_(min_distance),
         distance_(distance) {}
 
-  // Keeps the pose if it is far enough from all others. Once the memory is full it replaces the
-  // oldest but the first, which is the pose of the first frame and is never forgotten.
+  // Stores the pose if it is far enough from all others. Once the memory is full, it replaces the
+  // oldest pose except the first one, that of the first frame, which is always kept.
   void Remember(const Pose& pose) {
     const bool is_new = std::all_of(poses_.begin(), poses_.end(), [&](const Pose& other) {
       return distance_(pose, other) >= min_distance_;
@@ -39,7 +39,7 @@ class PoseMemory {
   double min_distance_;
   Distance distance_;
   std::vector<Pose> poses_;
-  std::size_t next_ = 1;  // to be replaced
+  std::size_t next_ = 1;  // index of the next pose to be replaced
 };
 
 }  // namespace vitruvia

@@ -10,11 +10,11 @@
 
 namespace vitruvia {
 
-// Rotations in the camera frame by which a search turns a known pose: about the vertical axis in
+// Rotations in the camera frame that a search applies to a known pose: about the vertical axis in
 // steps of 45 degrees, upright and upside down.
 std::vector<Matrix3<double>> HypothesisRotations();
 
-// What a method implements so that its poses can be searched.
+// Interface that a method implements so that its poses can be searched.
 //   Compare(pose)  the agreement of the frame with the model in that pose, without iterations
 //   Refine(pose)   the result of iterations from that pose; its member `agreement` belongs to the
 //                  pose that they reached

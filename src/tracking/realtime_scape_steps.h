@@ -1,5 +1,5 @@
-// The timed steps of paper A's algorithm 1. The tracker times them, and the tables set the times of
-// paper A's table 1 beside them: both by these identifiers, so that a name stands only here.
+// The timed steps of paper A's algorithm 1. The tracker uses these identifiers to time them, and
+// the tables to compare them with paper A's table 1, so that each name is defined only here.
 #pragma once
 
 namespace vitruvia {
@@ -17,7 +17,7 @@ enum class RealtimeScapeStep {
   kCount
 };
 
-// With the line's number in algorithm 1.
+// Name with the line's number in algorithm 1.
 constexpr const char* Name(RealtimeScapeStep step) {
   switch (step) {
     case RealtimeScapeStep::kCloudTree:

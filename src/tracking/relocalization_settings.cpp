@@ -27,23 +27,22 @@ void RelocalizationSettings::Describe(Fields& f) {
             .origin = Origin::kGuessed,
             .source = kSource});
   f.Number("least_usual", least_usual,
-           {.meaning = "the usual agreement of model and frame never counts as lower than this, so "
-                       "that what the first frame shows is not taken for the subject unseen",
+           {.meaning = "lower bound of the usual agreement of model and frame, so that a poor "
+                       "agreement in the first frame does not become the usual one",
             .min = 0,
             .max = 1,
             .origin = Origin::kGuessed,
             .source = kSource});
   if (!f.Applies(patience > 0)) return;
-  f.Number(
-      "part_gap_m", part_gap_m,
-      {.meaning = "the cloud is split into parts where depth jumps by more than this, and a "
-                  "search tries poses at each part's centre, too; 0: at that of the whole cloud "
-                  "alone",
-       .unit = "m",
-       .min = 0,
-       .max = 10,
-       .origin = Origin::kGuessed,
-       .source = kSource});
+  f.Number("part_gap_m", part_gap_m,
+           {.meaning =
+                "the cloud is split into parts where depth jumps by more than this, and a search "
+                "also tries poses at each part's centre; 0: only at the centre of the whole cloud",
+            .unit = "m",
+            .min = 0,
+            .max = 10,
+            .origin = Origin::kGuessed,
+            .source = kSource});
   f.Integer("pause", pause,
             {.meaning = "number of frames between two searches for a lost subject",
              .unit = "frames",

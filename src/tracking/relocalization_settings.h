@@ -11,7 +11,7 @@ struct RelocalizationSettings {
   double agreement_threshold = 0.8;
   double doubt_threshold = 0.0;
   double least_usual = 0.0;
-  double part_gap_m = 0.0;  // 0: the cloud is one
+  double part_gap_m = 0.0;  // 0: the cloud is not divided into parts
   double margin = 0.1;
   int num_remembered = 8;
   double min_pose_distance_deg = 20.0;

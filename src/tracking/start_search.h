@@ -1,4 +1,4 @@
-// Finds the subject in a frame, in any pose and facing anywhere, for a tracker to start from.
+// Finds the subject's first pose in a frame, in any pose and at any heading.
 #pragma once
 
 #include <memory>
@@ -15,19 +15,19 @@ namespace vitruvia {
 
 // How a tracker gets its first pose.
 enum class Start {
-  kRestPose,  // papers: the subject stands in the rest pose and faces the camera
-  kSearch,    // ours: any pose of a library, at any heading
+  kRestPose,  // as in the papers: the subject stands in the rest pose and faces the camera
+  kSearch,    // not in the papers: any pose of a library, at any heading
 };
-// Describes a method's field of that type.
+// Describes a method's setting of that type.
 void DescribeStart(Fields& fields, Start& start);
 
 struct FoundStart {
   bool found = false;
-  BodyState state;                  // of the best hypothesis, also where it is not trusted
+  BodyState state;                  // of the best hypothesis, even if `found` is false
   BoneTransforms camera_from_rest;  // in that state
   MutualDistance distance;
   double margin = 0.0;  // see SearchOutcome
-  std::string message;  // how sure it is
+  std::string message;  // confidence of the result, for the user
 };
 
 class StartSearch {
@@ -35,7 +35,7 @@ class StartSearch {
   StartSearch(const Subject& subject, const PinholeCamera& camera, double max_depth_m,
               const PoseSearchSettings& settings);
 
-  // The frame's measurements are the person's. Where joints are known the search begins at them.
+  // The frame must show the person alone. If joints are known, the search starts from them.
   FoundStart Find(const DepthImage& depth, const KnownJoints& known);
 
  private:
@@ -50,7 +50,7 @@ class StartSearch {
   std::vector<PoseHypothesis> hypotheses_;  // of the search at hand
 };
 
-// The message of the first frame that is tracked: how its start was found, and how it ended.
+// The message of the first tracked frame: the start's message and that of its tracking.
 std::string WithStart(const std::string& start, const std::string& ending);
 
 }  // namespace vitruvia

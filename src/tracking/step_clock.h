@@ -10,7 +10,7 @@
 namespace vitruvia {
 
 // Milliseconds of each step. Step is an enum class whose last enumerator is kCount; `Name(Step)`
-// says what a step is called in results.
+// gives a step's name in results.
 template <class Step>
 class StepTimes {
  public:
@@ -34,20 +34,20 @@ class StepTimes {
   std::array<double, kCount> ms_{};
 };
 
-// A stopwatch that books laps under steps. `Watch` has a member `double LapMs()`.
+// A stopwatch that adds each lap to a step. `Watch` has a member `double LapMs()`.
 template <class Step, class Watch = Stopwatch>
 class StepClock {
  public:
   explicit StepClock(Watch watch = {}) : watch_(watch) {}
 
-  // All times to zero; the first lap begins.
+  // Resets all times to zero and begins the first lap.
   void Restart() {
     times_ = {};
     watch_.LapMs();
   }
   // Adds the time since the end of the last lap to this step's.
   void Lap(Step step) { times_[step] += watch_.LapMs(); }
-  // Ends a lap that no step is charged for.
+  // Ends a lap without adding it to a step.
   void Skip() { watch_.LapMs(); }
 
   const StepTimes<Step>& times() const { return times_; }

@@ -21,15 +21,15 @@ struct DepthFrame {
   int index = 0;
   double time_s = 0.0;
   DepthImage depth;  // metres along z, 0 = no measurement; the body only, background removed
-  // Joints that may be known of the first frame, camera frame; a start by search begins there.
+  // Known joints of the first frame, camera frame; may be empty. A start by search begins at them.
   KnownJoints known{};
 };
 
 enum class Outcome {
   kConverged,       // the stopping rule was met
-  kIterationLimit,  // stopped by the limit: usable, but not at rest
+  kIterationLimit,  // stopped by the iteration limit: usable, but not converged
   kLost,            // too little of the model is supported by the data; the pose is a guess
-  kNoData,          // the frame holds no measurement; the pose is carried over
+  kNoData,          // the frame holds no measurement; the pose is that of the last frame
 };
 const char* Name(Outcome outcome);
 inline bool IsFailure(Outcome outcome) {
@@ -44,24 +44,24 @@ struct NamedValue {
 
 struct TrackResult {
   Outcome outcome = Outcome::kNoData;
-  std::string message;                  // why, for a person; "" when converged
+  std::string message;                  // reason of the outcome, for the user; "" when converged
   std::vector<Vector3f> vertices;       // the subject's surface, camera frame, metres
   std::vector<Vector3<double>> joints;  // one for each bone: its proximal end, camera frame, metres
-  // What trackers say of their joints' accuracy, where they are asked (joint_uncertainty.h): each
-  // joint's covariance, m², and whether it should not be relied on. Empty: nothing.
+  // Optional uncertainty of the joints (joint_uncertainty.h): each joint's covariance, m², and
+  // whether it is unreliable. Empty: not estimated.
   std::vector<Matrix3<double>> joint_covariances{};
   std::vector<bool> unreliable_joints{};
   BoneTransforms camera_from_rest;  // one for each bone; empty for methods without bones
   int iterations = 0;
   std::vector<NamedValue> energies;  // at the last linearisation, weighted as minimised
   std::vector<NamedValue> step_ms;   // summed over the frame's iterations
-  double condition = -1.0;           // of the normal equations; -1 where not estimated
-  // By what share of itself a step raised the energy at most, its correspondences kept; 0 where
-  // none did, -1 where that was not looked at.
+  double condition = -1.0;           // of the normal equations; -1 if not estimated
+  // Largest relative increase of the energy in a step, at fixed correspondences; 0 if no step
+  // increased it, -1 if not evaluated.
   double energy_rise = -1.0;
-  // Of the last normal equations, where they were checked (solver/system_check.h): eigenvalues
-  // below 1e-6 of the largest, and digits in which the solution agrees with a slow one; -1
-  // elsewhere.
+  // Check of the last normal equations (solver/system_check.h): number of eigenvalues below 1e-6 of
+  // the largest, and number of digits in which the solution agrees with a reference; -1 if not
+  // checked.
   int weak_directions = -1;
   double agreeing_digits = -1.0;
 };
@@ -69,8 +69,9 @@ struct TrackResult {
 class Tracker {
  public:
   virtual ~Tracker() = default;
-  // Before the first frame, in which the subject stands in the rest pose facing the camera, upright
-  // to within some 30 degrees. Throws std::invalid_argument on a subject the method cannot use.
+  // To be called before the first frame, in which the subject stands in the rest pose facing the
+  // camera, upright to within some 30 degrees. Throws std::invalid_argument for a subject that the
+  // method cannot use.
   virtual void Start(const Subject& subject, const PinholeCamera& camera) = 0;
   virtual TrackResult TrackFrame(const DepthFrame& frame) = 0;
 };

@@ -47,12 +47,13 @@ void ViewFaultSettings::Describe(Fields& f) {
            {{"as_recorded", FrameOrder::kAsRecorded},
             {"repeated", FrameOrder::kRepeated},
             {"backwards", FrameOrder::kBackwards}},
-           {.meaning = "which images are shown from first_frame on: those of the frames, that "
-                       "frame's again and again, or those before it, latest first; the truth stays "
-                       "that of the frame's number"});
+           {.meaning = "images shown from first_frame on: the recorded ones, the image of "
+                       "first_frame repeated, or the images before it in reverse order; the truth "
+                       "remains that of the frame's number"});
   if (f.Applies(order != FrameOrder::kAsRecorded)) {
-    f.Integer("first_frame", first_frame,
-              {.meaning = "first frame of another order", .unit = "frames", .min = 0, .max = 1e6});
+    f.Integer(
+        "first_frame", first_frame,
+        {.meaning = "first frame with a different image", .unit = "frames", .min = 0, .max = 1e6});
     f.Integer("frames", frames,
               {.meaning = "number of frames that show another image",
                .unit = "frames",
@@ -60,15 +61,15 @@ void ViewFaultSettings::Describe(Fields& f) {
                .max = 1e6});
   }
   f.Flag("mirrored", mirrored, {.meaning = "left and right of all images are exchanged"});
-  f.Numbers("only_px", only_px,
-            {.meaning = "left, top, right and bottom of the only part of all images that is shown, "
-                        "both ends in it",
-             .unit = "px",
-             .min = 0,
-             .max = 1e6});
-  f.Number(
-      "focal_factor", focal_factor,
-      {.meaning = "factor on the focal lengths that the tracker is told", .min = 0.1, .max = 10});
+  f.Numbers(
+      "only_px", only_px,
+      {.meaning =
+           "left, top, right and bottom (inclusive) of the only part of all images that is shown",
+       .unit = "px",
+       .min = 0,
+       .max = 1e6});
+  f.Number("focal_factor", focal_factor,
+           {.meaning = "factor on the focal lengths given to the tracker", .min = 0.1, .max = 10});
 }
 
 }  // namespace vitruvia

@@ -1,5 +1,5 @@
-// Damage done to how a tracker sees a whole sequence: which image comes when, how it is turned, and
-// what the tracker is told of its camera. The sequence and its truth stay whole.
+// Faults in a tracker's view of a whole sequence: the order of images, their orientation, and the
+// intrinsics given to the tracker. The sequence and its truth stay intact.
 #pragma once
 
 #include <array>
@@ -11,20 +11,22 @@
 
 namespace vitruvia {
 
-// Which images are shown from some frame on.
+// Order of the images from a given frame on.
 enum class FrameOrder {
   kAsRecorded,
-  kRepeated,   // that frame's image again and again
+  kRepeated,   // that frame's image is repeated
   kBackwards,  // the images before it, latest first
 };
 
 struct ViewFaultSettings {
   FrameOrder order = FrameOrder::kAsRecorded;
-  int first_frame = 0;  // of another order
+  int first_frame = 0;  // the first frame with a different order
   int frames = 1;
   bool mirrored = false;                          // left and right of all images exchanged
-  std::array<double, 4> only_px{0, 0, 1e6, 1e6};  // left, top, right, bottom: nothing else is shown
-  double focal_factor = 1.0;                      // on the focal lengths that the tracker is told
+  std::array<double, 4> only_px{0, 0, 1e6, 1e6};  // left, top, right, bottom: pixels outside are
+                                                  // removed
+  double focal_factor = 1.0;                      // factor on the focal lengths given to the
+                                                  // tracker
 
   bool AreNone() const;
   int ShownFrame(int frame) const;  // the frame whose image is shown as this one

@@ -1,4 +1,4 @@
-// Which vertices the camera sees.
+// Vertices visible to the camera.
 #pragma once
 
 #include <vector>

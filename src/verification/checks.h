@@ -1,4 +1,4 @@
-// The checks that a verification consists of. For this module's own files.
+// The checks of a verification. Internal to this module.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace vitruvia {
 
-// `count` of them evenly spread, the first and the last among them; all if there are fewer.
+// `count` evenly spread frames, including the first and the last; all frames if there are fewer.
 std::vector<int> SpreadFrames(int frames, int count);
 
 Findings CheckCamera(const PinholeCamera& camera);
@@ -20,14 +20,15 @@ Findings CheckTrueJoints(const SequenceReader& sequence);
 // truth/vertices.bin against truth/mesh.ply, and truth/joints.json against both.
 Findings CheckTrueSurface(const SequenceReader& sequence, const std::vector<int>& frames);
 
-// depth/ by itself: empty, constant, byte order, repeated.
+// depth/ alone: empty or constant images, byte order, repeated images.
 Findings CheckImages(const SequenceReader& sequence, const std::vector<int>& frames);
 
-// depth/ against the true surface, the true joints or the subject's size, whichever is there first.
+// depth/ against the first of these that is available: the true surface, the true joints, the
+// subject's size.
 Findings CheckDepth(const SequenceReader& sequence, const std::vector<int>& frames);
 
-// Each image against the truth of its own frame, where there is a true surface: another moment, and
-// joints whose "visible" the image contradicts.
+// Each image against the true surface of its frame, if there is one: finds images of another
+// moment, and joints whose flag "visible" the image contradicts.
 Findings CheckFrames(const SequenceReader& sequence, const std::vector<int>& frames);
 
 }  // namespace vitruvia

@@ -1,5 +1,4 @@
-// How well a depth image agrees with the true surface that it should show. For this module's own
-// files.
+// Agreement of a depth image with the true surface that it should show. Internal to this module.
 #pragma once
 
 #include <vector>
@@ -19,7 +18,7 @@ struct DepthAgreement {
   double AgreeingShare() const;  // of both; 0 if there are none
   double CoveredShare() const;   // both / rendered; 1 if nothing is rendered
   double Silhouette() const;     // intersection over union
-  // Share of the rendered pixels that agree: what causes are compared by.
+  // Share of the rendered pixels that agree, by which causes are compared.
   double Score() const;
   // Median of ratios; 1 without any.
   double DepthRatio() const;
@@ -28,8 +27,8 @@ struct DepthAgreement {
 DepthAgreement Compare(const DepthImage& measured, const DepthImage& rendered);
 void Add(const DepthAgreement& frame, DepthAgreement& sum);
 
-// Pixels where the true surface and its image mirrored or turned differ, by which of the two the
-// depth has.
+// Counts of the pixels where the true surface's rendering and its mirrored or rotated version
+// differ, by which of the two the depth matches.
 struct MirrorVotes {
   long for_truth = 0, for_mirror = 0;
 };

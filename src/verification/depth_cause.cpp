@@ -27,7 +27,7 @@ struct Evidence {
   PinholeCamera camera;
 };
 
-// Something that may have been done wrong, and what undoes it.
+// A possible mistake and its correction.
 struct Candidate {
   std::string cause;
   std::function<void(Evidence&)> undo;

@@ -1,5 +1,5 @@
-// The change of a sequence that would make its depth agree with its truth. For this module's own
-// files.
+// Finds the change of a sequence that would make its depth agree with its truth. Internal to this
+// module.
 #pragma once
 
 #include <string>
@@ -11,13 +11,14 @@
 
 namespace vitruvia {
 
-// Fewer joints say nothing.
+// With fewer joints no cause is determined.
 inline constexpr int kFewestJoints = 8;
 
 JointAgreement CompareWithJoints(const SequenceReader& sequence, const std::vector<int>& frames);
 
 // Tries units, byte order, mirror images, axes, cameras of other resolutions and shifts in time on
-// a few frames. The cause in words, with its evidence; or that there is no simple one.
+// a few frames. Returns a text with the cause and its evidence, or one that says that no simple
+// cause was found.
 std::string CauseOfDisagreement(const SequenceReader& sequence, const DepthAgreement& as_stated);
 std::string CauseOfDisagreement(const SequenceReader& sequence, const JointAgreement& as_stated);
 

@@ -1,4 +1,4 @@
-// Depth images as they would be had something been done otherwise. For this module's own files.
+// Depth images transformed as common mistakes would transform them. Internal to this module.
 #pragma once
 
 #include "geometry/camera.h"
@@ -11,7 +11,7 @@ DepthImage MirroredSideways(const DepthImage& depth);
 DepthImage TurnedUpsideDown(const DepthImage& depth);  // rows in reverse
 DepthImage TurnedHalfRound(const DepthImage& depth);   // both
 DepthImage Scaled(const DepthImage& depth, double factor);
-// Values taken for distances from the camera's centre instead of depth along z.
+// Depth along z, if the values are distances from the camera's centre.
 DepthImage FromRayLengths(const DepthImage& lengths, const PinholeCamera& camera);
 
 }  // namespace vitruvia

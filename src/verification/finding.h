@@ -1,4 +1,4 @@
-// What a check of a sequence found.
+// Findings of the checks of a sequence.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace vitruvia {
 
 enum class Severity {
-  kWarning,  // may be meant
+  kWarning,  // may be intended
   kError,    // cannot be true
 };
 

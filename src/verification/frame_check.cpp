@@ -50,8 +50,8 @@ FrameDifference DifferenceOf(const DepthImage& measured, const DepthImage& rende
   return difference;
 }
 
-// A joint is surely hidden where the body's own surface covers it, and surely seen where the image
-// holds that surface and it does not.
+// A joint is certainly hidden if the body's own surface covers it, and certainly visible if the
+// image shows that surface and it does not cover the joint.
 void CountFlags(const SequenceReader& sequence, int frame, const DepthImage& measured,
                 const DepthImage& rendered, FlagCounts& counts) {
   const JointTruth& truth = sequence.true_joints(frame);

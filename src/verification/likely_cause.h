@@ -1,4 +1,4 @@
-// Guesses at what went wrong, from a ratio or from a change of axes that would put it right.
+// Likely causes of an error, from a ratio or from a change of axes that would correct it.
 #pragma once
 
 #include <string>
@@ -11,7 +11,8 @@ namespace vitruvia {
 // "1000 times too large" for a length or depth that is `ratio` times what is expected.
 std::string TimesTooLarge(double ratio);
 
-// A question after TimesTooLarge: ": in millimetres?"; "" where the ratio is of no known unit.
+// A question to append to TimesTooLarge: ": in millimetres?"; "" if the ratio matches no known
+// unit.
 std::string LengthUnitCause(double ratio);
 
 // A question about the header's depth_unit_m, given that depth is `ratio` times what is expected.
@@ -25,7 +26,7 @@ struct AxisMap {
 const std::vector<AxisMap>& AxisMaps();  // all 47
 
 enum class AxesOf { kCamera, kSubject };
-// What a file has if `map` puts it right: "y up and z backwards instead of y down and z forward".
+// The axes of a file that `map` corrects: "y up and z backwards instead of y down and z forward".
 std::string AxisCause(const AxisMap& map, AxesOf frame);
 
 }  // namespace vitruvia

@@ -1,4 +1,4 @@
-// Every threshold of the verification. Warnings leave room for what a user may mean; errors are set
+// All thresholds of the verification. Warnings allow for unusual but intended data; errors are set
 // so that only a wrong unit, frame, order or file can reach them.
 #pragma once
 
@@ -7,7 +7,8 @@ namespace vitruvia::verification_limits {
 // Camera.
 inline constexpr double kNarrowestView_deg = 20.0, kWidestView_deg = 120.0;  // of the wider side
 inline constexpr double kLargestPixelAspect = 1.2;                           // fx / fy, either way
-inline constexpr double kPrincipalPointMargin = 0.25;   // share of the image that it stays inside
+inline constexpr double kPrincipalPointMargin = 0.25;   // minimum distance from the image border,
+                                                        // share of the image
 inline constexpr double kOtherResolutionWithin = 0.02;  // of (size − 1) / 2, relative
 
 // Subject.
@@ -19,7 +20,8 @@ inline constexpr double kHeightErrorAbove = 0.15;  // |mesh height / height_m �
 inline constexpr double kHeightWarningAbove = 0.05;
 inline constexpr double kFloorWithin_m = 0.05;       // lowest vertex from y = 0
 inline constexpr double kAxisAlignment = 0.7;        // cosine between a body axis and its frame's
-inline constexpr double kSkinFromBone = 0.15;        // of the height: a bone's skin from its middle
+inline constexpr double kSkinFromBone = 0.15;        // of the height: distance of a bone's skin
+                                                     // from the bone's midpoint
 inline constexpr double kBonesWithTheirSkin = 0.75;  // share of the bones
 inline constexpr double kJointsInside = 0.6;         // share of the joints inside the mesh
 
@@ -27,14 +29,15 @@ inline constexpr double kJointsInside = 0.6;         // share of the joints insi
 inline constexpr double kRestMedianWithin_m = 0.06;
 inline constexpr double kRestNearlyAllWithin_m = 0.16;  // 95 % of the vertices
 inline constexpr double kRestScaleWithin = 0.12;        // ratio of the diagonals
-inline constexpr double kTurnedRestError_m = 0.004;     // mean distance from which a turn is tried
+inline constexpr double kTurnedRestError_m = 0.004;     // mean distance above which rotations are
+                                                        // tried
 
 // True surface.
 inline constexpr double kEdgeScaleWithin = 0.25;  // median edge, posed / rest
 inline constexpr double kEdgesKeptShare = 0.7;    // of edges within a factor 2 of the median
 inline constexpr double kStrayEdge_m = 0.5;       // of one edge, posed …
 inline constexpr double kStrayEdgeRatio = 10.0;   // … and this many times its length at rest
-inline constexpr double kVolumeShare = 0.2;       // |posed / rest| of a volume that has a sign
+inline constexpr double kVolumeShare = 0.2;       // minimum |posed / rest| of the signed volume
 
 // True joints.
 inline constexpr double kBoneErrorFactor = 2.0;  // median bone / the subject's
@@ -45,15 +48,18 @@ inline constexpr double kJump_m = 0.10;               // mean step of all joints
 inline constexpr double kJumpOfNeighbours = 4.0;      // … and of the steps before and after
 inline constexpr double kJointFromSkin_m = 0.10;      // more than in the rest pose
 inline constexpr double kJointsOnSurface = 0.8;       // share of joints in their place
-inline constexpr double kJointOfSkin_m = 0.06;        // from where the skin round it carries it
+inline constexpr double kJointOfSkin_m = 0.06;        // distance from the place to which the
+                                                      // surrounding skin moves it
 inline constexpr double kJointsOffSkin = 0.1;         // share of joints that may be farther
-inline constexpr double kSidewaysShoulders_m = 0.05;  // less is neither facing nor turned away
+inline constexpr double kSidewaysShoulders_m = 0.05;  // below it the direction of facing is
+                                                      // undetermined
 inline constexpr double kUprightCosine = 0.7;         // first frame
 
 // Depth images.
 inline constexpr double kEmptyFramesShare = 0.5;
-inline constexpr int kFewPixels = 20;       // fewer say nothing of an image
-inline constexpr long kEnoughPixels = 200;  // for one value in all of them to be a fault
+inline constexpr int kFewPixels = 20;       // images with fewer are not judged
+inline constexpr long kEnoughPixels = 200;  // minimum number of pixels for a constant image to be a
+                                            // fault
 inline constexpr double kSwappedBytesRoughness = 10.0;  // raw / swapped, of neighbours' differences
 inline constexpr double kRepeatedMotion_m = 0.03;       // of the truth during a repeated image
 
@@ -78,16 +84,17 @@ inline constexpr double kApparentSize = 1.6;  // cloud / subject, either way
 
 // Each image against the truth of its own frame.
 inline constexpr float kSameMomentWithin_m = 0.05f;
-inline constexpr float kBeforeSurface_m = 0.15f;  // something else stands before the person
+inline constexpr float kBeforeSurface_m = 0.15f;  // another object stands in front of the person
 inline constexpr double kUsualDifference = 2.0;   // times the share of a usual frame …
 inline constexpr double kFrameDifference = 0.10;  // … and this share of the pixels more
 inline constexpr long kFewDifferingPixels = 40;
-inline constexpr double kWrongFlags = 0.25;  // of the joints that the images decide about
+inline constexpr double kWrongFlags = 0.25;  // of the joints for which the images determine
+                                             // visibility
 inline constexpr int kFewestFlags = 20;
 
-// How many frames are looked at before a run, so that it takes a few percent of the run's time, and
-// for the cause of a disagreement.
-inline constexpr int kFramesPerSample = 40;  // one of so many is looked at before a run …
+// Number of frames checked before a run, so that the check takes a few percent of the run's time,
+// and number of frames used to find the cause of a disagreement.
+inline constexpr int kFramesPerSample = 40;  // one of so many frames is checked before a run …
 inline constexpr int kFewestSampledFrames = 3, kMostSampledFrames = 8;  // … within these
 inline constexpr int kFramesForCause = 4;
 

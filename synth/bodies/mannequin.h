@@ -4,12 +4,12 @@
 // symmetric, 400 vertices and 398 quads for every subject. Two Catmull–Clark steps give 6,370
 // vertices and 12,736 triangles, three give 25,474 and 50,944.
 //
-// Lengths are fractions of stature and girths are means and standard deviations of published
-// tables (mannequin_tables.h). The cage is solved for so that the surface after two steps passes
-// through the points that were designed: Catmull–Clark shrinks, the table's girths must not.
+// Lengths are fractions of stature and girths are means and standard deviations of published tables
+// (mannequin_tables.h). Because Catmull–Clark subdivision shrinks a mesh, the cage is computed such
+// that the surface after two steps passes through the designed points and has the table's girths.
 //
-// Subjects of one sex and other statures are scaled copies; weight then moves all girths together
-// along their standard deviations, by one score, until volume × density is the weight asked for.
+// Subjects of the same sex and different stature are scaled copies. Then all girths are changed by
+// the same score, in standard deviations, until volume × density is the requested weight.
 #pragma once
 
 #include <string>
@@ -26,7 +26,7 @@ double BodyDensity(Sex sex);
 // "" if a body of that height and weight can be built, otherwise why not.
 std::string MannequinProblem(const BodySettings& settings);
 
-// ConfigError if MannequinProblem() says so.
+// ConfigError if MannequinProblem() is not "".
 ControlBody MakeMannequin(const BodySettings& settings);
 
 }  // namespace vitruvia

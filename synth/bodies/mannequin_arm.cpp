@@ -26,7 +26,7 @@ struct ArmRingForm {
   double up_cm = 0.0, forward_cm = 0.0;  // of the ring's centre from the arm's axis
 };
 
-// The survey's girths where it has them; between them what looks right (guessed).
+// Girths of the survey where available; in between, chosen by eye (guessed).
 std::array<ArmRingForm, kPalm> ArmForms(Sex sex, double girth_score) {
   const SurveyTable& survey = Survey(sex);
   const ArmJoints joints = LeftArmJoints(sex);

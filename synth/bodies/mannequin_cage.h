@@ -1,4 +1,4 @@
-// The mannequin's cage: which points there are and which quads join them. The same for everybody.
+// The mannequin's cage: its vertices and quads, the same for all subjects.
 //
 // The left half is a lattice of named loops; the right half is its mirror image, and both share the
 // midline. The trunk's rows run from the legs' openings to the forehead, each from the front

@@ -1,4 +1,4 @@
-// The form of arms and legs: rings of six points about the limbs' axes.
+// The shape of arms and legs: rings of six points about the limbs' axes.
 #pragma once
 
 #include <Eigen/Core>

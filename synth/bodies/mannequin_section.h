@@ -14,14 +14,14 @@ inline constexpr double kCentimetre = 0.01;
 
 using Section = Eigen::Matrix<double, kRingPoints, 2>;  // metres from its centre, in its plane
 
-// A regular hexagon, each corner drawn in or out, stretched along the plane's axes.
+// A regular hexagon with a radius for each corner, scaled along the plane's axes.
 struct SectionShape {
   std::array<double, kRingPoints> radii{1, 1, 1, 1, 1, 1};
   double width = 1.0, depth = 1.0;
 };
 
-// The length of the closed uniform cubic B-spline through the points, metres: what a ring of the
-// refined surface comes to.
+// The length of the closed uniform cubic B-spline of the points, metres, to which a ring of the
+// refined surface converges.
 double GirthOf(const Section& points);
 
 // Point k lies in direction `first_deg` + k `step_deg` before the stretch.

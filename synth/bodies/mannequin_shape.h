@@ -1,4 +1,4 @@
-// The mannequin's form: where the surface passes at each of the cage's vertices, and the joints.
+// The mannequin's shape: the surface point of each of the cage's vertices, and the joints.
 #pragma once
 
 #include <Eigen/Core>

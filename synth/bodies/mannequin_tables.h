@@ -1,9 +1,10 @@
-// Published measurements that the mannequin is built to.
+// Published measurements on which the mannequin is based.
 //
 // Girths: means and standard deviations of ANSUR II, the 2012 anthropometric survey of U.S. Army
 // personnel (Gordon et al. 2014, NATICK/TR-15/007; 4,082 men, 1,986 women), rounded to millimetres.
 // Women's calf and ankle are estimated from published percentiles, within about a percent. Not
-// every figure has been read again from the report itself: take the last digit as uncertain.
+// every number has been checked against the report: the last digit is uncertain.
+//
 // Lengths: fractions of stature H. Legs after Drillis & Contini 1966 (as in Winter 2009, fig. 4.1);
 // arms between joint centres after de Leva 1996, whose arms and shoulders add up to the measured
 // span, which those of Drillis & Contini exceed by a tenth.
@@ -27,8 +28,8 @@ struct SurveyTable {
 };
 const SurveyTable& Survey(Sex sex);
 
-// What a girth comes to over its mean for a person that many standard deviations from it. Below the
-// mean it shrinks by equal ratios, for girths differ in spread and none may vanish.
+// Ratio of a girth to its mean for a person that many standard deviations from the mean. Below the
+// mean it decreases exponentially, so that no girth becomes zero or negative.
 double Growth(double deviation_of_mean, double girth_score);
 inline double Growth(const Girth& girth, double girth_score) {
   return Growth(girth.deviation_m / girth.mean_m, girth_score);

@@ -1,4 +1,4 @@
-// The form of trunk, neck and head: the cage's rows of six points.
+// The shape of trunk, neck and head: the cage's rows of six points.
 #pragma once
 
 #include <Eigen/Core>

@@ -13,8 +13,8 @@ using enum BoneId;
 using Share = std::pair<BoneId, double>;
 using Shares = std::initializer_list<Share>;
 
-// Subdivision smooths what is said here over about one ring to either side, so a joint needs little
-// more than one ring that belongs to both bones.
+// Subdivision smooths these weights over about one ring to either side, so a joint needs little
+// more than one ring with weights of both bones.
 class LeftWeights {
  public:
   LeftWeights() : weights_(Eigen::MatrixXf::Zero(kLeftVertices, kBoneCount)) {

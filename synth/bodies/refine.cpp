@@ -82,8 +82,8 @@ void DecimateBody(const std::vector<Vector3f>& reference, int target_vertices, B
   model.rest.triangles = std::move(decimation.triangles);
 }
 
-// Where the fourth and fifth largest weights tie, as those of left and right on the midline do,
-// both go: rounding must not choose a side.
+// If the fourth and fifth largest weights tie, as those of left and right on the midline do, both
+// are removed, so that rounding does not choose a side.
 void DropTiesForLastPlace(Eigen::MatrixXf& weights) {
   constexpr float kTie = 1e-6f;  // a few roundings of weights up to 1
   for (Eigen::Index v = 0; v < weights.rows(); ++v) {
@@ -111,15 +111,16 @@ void RefinementSettings::Describe(Fields& f) {
              .source = "the source's own mesh"});
   f.Integer(
       "weight_diffusion", weight_diffusion,
-      {.meaning = "steps in which each vertex's skinning weights move half-way to the mean of "
-                  "its neighbours': makes truth that the template's weights cannot fit",
+      {.meaning =
+           "number of steps in which each vertex's skinning weights move half-way to the mean of "
+           "its neighbours', so that the template's weights cannot reproduce the truth",
        .min = 0,
        .max = 100,
        .origin = Origin::kInput,
        .source = "none: the weights as subdivided"});
   f.Integer("target_vertices", target_vertices,
-            {.meaning = "last, decimation down to that many vertices, which are a subset of the "
-                        "subdivided surface's and keep their weights; 0 keeps all",
+            {.meaning = "final decimation to this number of vertices, a subset of the subdivided "
+                        "surface's with their weights; 0: no decimation",
              .min = 0,
              .max = 1e6,
              .origin = Origin::kInput,

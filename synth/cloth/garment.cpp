@@ -69,7 +69,7 @@ void ClothSettings::Describe(Fields& f) {
             .min = 0,
             .max = 0.03});
   f.Number("drape_m", drape_m,
-           {.meaning = "how far sleeves and trouser legs hang below a level limb",
+           {.meaning = "distance by which sleeves and trouser legs hang below a horizontal limb",
             .unit = "m",
             .min = 0,
             .max = 0.08});
@@ -146,7 +146,7 @@ void Garment::AddFolds(const JointPose& pose, std::vector<double>& offsets) cons
     const double inner =
         lean.norm() < 1e-9 ? 0.5 : 0.5 + 0.5 * lean.normalized().dot(site.outwards);
     const double pressed = kStretchedShare + (1.0 - kStretchedShare) * inner;
-    // The folds of a twisted limb run askew: the phase goes round with the limb.
+    // The folds of a twisted limb are oblique: the phase depends on the angle round the limb.
     const double around = std::atan2(site.outwards.y() + site.outwards.x(), site.outwards.z());
     const double twist = LogSo3<double>(local).dot(axis);
     const double phase =

@@ -1,14 +1,14 @@
-// Clothes on a true surface: what a template does not know of it.
+// Clothes on a true surface, which the template does not have.
 //
 // Every vertex of the rest surface is moved along its normal, by the sum of
-//   volume     a smooth field, the same in all frames: a body of other proportions than the
-//   template thickness  of the cloth folds      waves across each bent joint, deeper on the side
-//   that the bend presses together, that
-//              come and go with the joint's angle
-//   wrinkles   waves that drift slowly over all the cloth, in time alone
+//   volume     a smooth field, the same in all frames: differences of the template's proportions
+//   thickness  of the cloth
+//   folds      waves across each bent joint, deeper on the side that the bend compresses; their
+//              depth changes with the joint's angle
+//   wrinkles   waves that drift slowly over all the cloth with time, independent of the pose
 //   drape      sleeves and trouser legs hang below limbs that are not upright
-// all seeded, then skinned with the true bones. Head, hands and feet are bare. It is no simulation
-// of cloth: it has no inertia, does not slide on the skin and touches nothing.
+// all seeded, then skinned with the true bones. Head, hands and feet are bare. This is not a
+// simulation of cloth: there is no inertia, no sliding on the skin and no contact.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ class Garment {
  public:
   Garment(const BodyModel& body, const ClothSettings& settings, std::uint64_t seed);
 
-  // The body's rest vertices, dressed for a pose and a time. Same input, same output.
+  // Displaces the body's rest vertices by the cloth in a pose at a time. Deterministic.
   void Dress(const JointPose& pose, double time_s, std::vector<Vector3f>& rest_vertices) const;
 
  private:

@@ -170,7 +170,7 @@ BodyModel MakePerson(const JointExampleSettings& settings, Population& populatio
 
 void RandomPoseSettings::Describe(Fields& f) {
   f.Number("limits_used", limits_used,
-           {.meaning = "share of each joint's range, round its middle, that is drawn from",
+           {.meaning = "share of each joint's range, centred, from which angles are drawn",
             .min = 0.0,
             .max = 1.0,
             .origin = Origin::kGuessed});
@@ -239,7 +239,7 @@ void JointExampleSettings::Describe(Fields& f) {
              .min = 0.0,
              .max = 4.0});
   f.Number("off_centre_m", off_centre_m,
-           {.meaning = "how far the camera stands to either side at most",
+           {.meaning = "maximum lateral displacement of the camera to either side",
             .unit = "m",
             .min = 0.0,
             .max = 4.0});

@@ -1,5 +1,5 @@
-// Depth images of people whose joints are known, to learn a joint detector from: people of a
-// population, each in poses drawn at random, none of any motion file, seen from in front.
+// Depth images with known joints, for training a joint detector: people of a population in random
+// poses (not from motion files), seen from the front.
 #pragma once
 
 #include <array>

@@ -7,7 +7,7 @@
 namespace vitruvia {
 namespace {
 
-// A motion without a joint turned farther than this is that of a statue, or is not in degrees.
+// If no joint rotates by more than this, the motion is static or its angles are not in degrees.
 constexpr double kSmallestTurnDeg = 4.0;
 constexpr double kMostTurns = 4.0;  // in an angle: more are radians that are degrees
 

@@ -1,15 +1,15 @@
-// Whether the angles of a motion file are in the unit that they are taken for.
+// Checks of the unit of a motion file's angles.
 #pragma once
 
 #include <string>
 
 namespace vitruvia {
 
-// What is odd about a motion whose angles are taken to be degrees and reach this size; "" if
-// nothing: all of them zero, or one that is larger than any angle in radians.
+// Warning for a motion whose angles, read as degrees, reach at most this size; "" if all are zero,
+// or if one is larger than any angle in radians.
 std::string DegreesDoubt(double largest_deg);
 
-// The same for angles that are taken to be radians.
+// The same for angles read as radians.
 std::string RadiansDoubt(double largest_rad);
 
 }  // namespace vitruvia

@@ -32,7 +32,7 @@ struct AsfBone {
 struct AsfSkeleton {
   std::vector<AsfBone> bones;  // the root first, parents before children
   double radians_per_unit = kRadiansPerDegree;
-  std::vector<std::string> warnings;  // what the file leaves open and had to be assumed
+  std::vector<std::string> warnings;  // assumptions about what the file does not state
 
   std::optional<int> Find(std::string_view name) const;
 };

@@ -214,18 +214,18 @@ class AmcReader {
 }  // namespace
 
 void AmcSettings::Describe(Fields& f) {
-  f.Number("amc_fps", fps,
-           {.meaning = "frame rate of the .amc file; most such files do not say it, and 120 "
-                       "frames/s, the rate of CMU's clips, are assumed; a file that says another "
-                       "rate is refused",
-            .unit = "frames/s",
-            .min = 5.0,
-            .max = 2000.0,
-            .origin = Origin::kGuessed});
+  f.Number(
+      "amc_fps", fps,
+      {.meaning = "frame rate of the .amc file, which most such files do not state; the default is "
+                  "the rate of CMU's clips; a file that states a different rate is rejected",
+       .unit = "frames/s",
+       .min = 5.0,
+       .max = 2000.0,
+       .origin = Origin::kGuessed});
   f.Choice("amc_gaps", gaps,
            {{"refuse", FrameGaps::kRefuse}, {"interpolate", FrameGaps::kInterpolate}},
-           {.meaning = "what is done where the frame numbers of the .amc file jump: refuse the "
-                       "file, or interpolate the missing frames between their neighbours"});
+           {.meaning = "treatment of gaps in the frame numbers of the .amc file: reject the file, "
+                       "or interpolate the missing frames between their neighbours"});
 }
 
 MocapClip ReadAsfAmc(const std::filesystem::path& amc, const std::filesystem::path& asf,

@@ -1,4 +1,4 @@
-// Acclaim motion capture: skeletons (.asf) and motions (.amc), as the CMU database has them.
+// Acclaim motion capture: skeletons (.asf) and motions (.amc), as in the CMU database.
 #pragma once
 
 #include "config/settings.h"

@@ -239,7 +239,7 @@ class BvhReader {
     return count;
   }
 
-  // Six channels on every joint of a rigid skeleton say nothing new.
+  // Six channels on every joint of a rigid skeleton are redundant.
   void DropOffsetsAtRest() {
     for (const MocapFrame& frame : clip_.frames) {
       for (std::size_t i = 1; i < clip_.joints.size(); ++i) {

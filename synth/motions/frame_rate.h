@@ -1,15 +1,15 @@
-// Which frame times a capture system may have.
+// Plausibility checks of a motion file's frame time.
 #pragma once
 
 #include <string>
 
 namespace vitruvia {
 
-// Why a file's time between frames, meant to be seconds, cannot be right, with the likely cause; ""
-// if it can.
+// Reason why a file's time between frames (seconds) must be wrong, with the likely cause; "" if it
+// may be right.
 std::string FrameTimeProblem(double frame_s);
 
-// Why it may be wrong, "" if it is an ordinary one.
+// Reason why it may be wrong; "" if it is a usual one.
 std::string FrameTimeDoubt(double frame_s);
 
 }  // namespace vitruvia

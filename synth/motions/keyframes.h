@@ -8,10 +8,10 @@
 
 namespace vitruvia {
 
-// All samples are grounded. Horizontally the pelvis follows the key frames' path, plus what keeps
-// the planted limbs where they are: with limb positions p_i(t) relative to the pelvis and weights
-// w_i(t), −∫ Σ w_i dp_i. What is planted at both of two neighbouring key frames bears the weight
-// between them, in equal shares; shares go over into each other within a tenth of a second.
+// All samples are grounded. Horizontally, the pelvis follows the key frames' path plus a correction
+// that keeps planted limbs fixed: with limb positions p_i(t) relative to the pelvis and weights
+// w_i(t), −∫ Σ w_i dp_i. Limbs that are planted at both of two neighbouring key frames share the
+// weight equally between them; the weights change smoothly within a tenth of a second.
 std::unique_ptr<Motion> MakeKeyframedMotion(const KeyframeSequence& sequence,
                                             const Skeleton& skeleton);
 

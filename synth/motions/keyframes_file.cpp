@@ -22,7 +22,8 @@ struct NamedPose {
   MentionedAngles angles;
 
   void Describe(Fields& f) {
-    f.Text("name", name, {.meaning = "what key frames call the pose", .required = true});
+    f.Text("name", name,
+           {.meaning = "name of the pose, by which key frames refer to it", .required = true});
     f.Section("angles", angles, {.meaning = "joint angles", .required = true});
   }
 };
@@ -49,9 +50,10 @@ void KeyFrameSettings::Describe(Fields& f) {
   f.Section("angles", angles, {.meaning = "joint angles"});
   f.Numbers("position_m", position_m,
             {.meaning = "path of the pelvis on the floor, to the subject's left and front at the "
-                        "start; what planted limbs add comes on top",
+                        "start; the motion by planted limbs is added",
              .unit = "m"});
-  f.Number("heading_deg", root.heading_deg, {.meaning = "turned to the left", .unit = "deg"});
+  f.Number("heading_deg", root.heading_deg,
+           {.meaning = "rotation of the body to its left", .unit = "deg"});
   f.Number("pitch_deg", root.pitch_deg,
            {.meaning = "pelvis tipped forward; 180: upside down", .unit = "deg"});
   f.Number("roll_deg", root.roll_deg, {.meaning = "pelvis tipped to the left", .unit = "deg"});
@@ -61,8 +63,8 @@ void KeyFrameSettings::Describe(Fields& f) {
             .min = 0.0,
             .max = 2.0});
   f.Texts("planted", planted,
-          {.meaning = "what does not slip: any of left_foot, right_foot, left_hand, right_hand; "
-                      "the pelvis moves instead"});
+          {.meaning = "limbs that do not slip on the floor: any of left_foot, right_foot, "
+                      "left_hand, right_hand; the pelvis moves instead"});
 }
 
 std::string KeyFrameSettings::Problem() const {
@@ -86,7 +88,8 @@ struct MotionFile {
 
   void Describe(Fields& f) {
     f.Text("title", title, {.meaning = "what the motion is"});
-    f.Flag("loop", loop, {.meaning = "repeat for ever; the last key frame is the first again"});
+    f.Flag("loop", loop,
+           {.meaning = "the motion repeats for ever; the last key frame must equal the first"});
     f.Flag("then_mirrored", then_mirrored,
            {.meaning = "append the motion with left and right exchanged; the last key frame is the "
                        "mirrored first"});

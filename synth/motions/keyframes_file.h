@@ -23,10 +23,10 @@
 
 namespace vitruvia {
 
-// What may stand on the floor without slipping.
+// Limbs that may stand on the floor without slipping.
 enum Support : int { kLeftFoot, kRightFoot, kLeftHand, kRightHand, kSupportCount };
 
-// Where the body is and how the pelvis is turned. The rotation is heading · pitch · roll; in the
+// Position of the body and rotation of the pelvis. The rotation is heading · pitch · roll; in the
 // rest pose all are zero.
 struct RootState {
   double left_m = 0.0, forward_m = 0.0;  // of the path on the floor, from the start
@@ -48,8 +48,8 @@ struct KeyframeSequence {
   std::vector<KeyFrame> keys;  // at least one; first at 0 s, times increasing
 };
 
-// ConfigError naming file, key frame, joint, angle and limit on anything that is not as above, on
-// times that do not increase and on a loop that does not close.
+// ConfigError naming file, key frame, joint, angle and limit for any violation of this format, for
+// times that do not increase, and for a loop that does not close.
 KeyframeSequence ReadKeyframes(const std::filesystem::path& file);
 
 // Walks over the fields of a motion file.

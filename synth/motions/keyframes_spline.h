@@ -2,7 +2,8 @@
 // for monotonic interpolation in one dimension", Astronomy & Astrophysics 239 (1990).
 //
 // Continuously differentiable, passes through the values, and never leaves the range of the two
-// neighbouring ones: joint angles within their limits at the key frames are so in between as well.
+// neighbouring ones: joint angles that are within their limits at the key frames are also within
+// them in between.
 #pragma once
 
 #include <vector>
@@ -11,7 +12,7 @@ namespace vitruvia {
 
 enum class SplineEnds {
   kAtRest,  // the derivative is zero at both ends
-  kLooped,  // the last value carries on as the first, up to a constant
+  kLooped,  // periodic up to a constant: the last value continues as the first
 };
 
 class MonotoneSpline {

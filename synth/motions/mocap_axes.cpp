@@ -58,7 +58,7 @@ std::string Text(const Vector3d& direction) {
   return fmt::format("({:.2f}, {:.2f}, {:.2f})", direction.x(), direction.y(), direction.z());
 }
 
-// What the frames say of the world.
+// Evidence of the frames about the world's axes.
 struct FrameEvidence {
   std::vector<std::vector<Vector3d>> positions;  // of all joints in every frame
   std::array<double, 6> shares{};            // of frames with the head above the feet along an axis
@@ -185,9 +185,9 @@ class AxesFinder {
     std::string warning;
   };
 
-  // Up in the world, given what is up in the rest pose. Where the two differ, somebody lies or
-  // stands on the hands, or the rest pose is in other axes than the world's: the floor, which most
-  // files have at 0, tells which.
+  // Up in the world, given what is up in the rest pose. If the two differ, the person lies or
+  // stands on the hands, or the rest pose is in different axes from the world; the floor, which is
+  // at 0 in most files, decides between these cases.
   Up WorldUp(const Vector3d& rest_up, const std::string& evidence) const {
     if (stated_up_) return {*stated_up_, ""};
     const std::size_t best = seen_.BestAxis();
@@ -276,9 +276,9 @@ void DescribeUpAxis(Fields& f, UpAxis& up_axis) {
             {"-y", UpAxis::kMinusY},
             {"+z", UpAxis::kPlusZ},
             {"-z", UpAxis::kMinusZ}},
-           {.meaning = "which axis of the motion capture file's world points up; from_file: the "
-                       "axis along which the rest pose stands upright, or, where it does not, "
-                       "along which the head is above the feet in most frames"});
+           {.meaning = "up axis of the motion capture file's world; from_file: the axis along "
+                       "which the rest pose stands upright or, if it does not, along which the "
+                       "head is above the feet in most frames"});
 }
 
 void TakeAsRestPose(MocapClip& clip, std::size_t frame) {

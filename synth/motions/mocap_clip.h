@@ -1,4 +1,4 @@
-// Motion capture as files hold it: a tree of joints and their rotations over time.
+// Motion capture data of a file: a tree of joints and their rotations over time.
 //
 // All in the axes and the length unit of the file. In the rest pose every joint's rotation is the
 // identity, so a rotation is relative to the rest pose.
@@ -32,9 +32,9 @@ struct MocapClip {
   std::vector<MocapJoint> joints;
   double frame_s = 0.0;
   std::vector<MocapFrame> frames;  // at least one
-  // What a reader found odd, and what it had to assume: whole sentences that name the file.
-  std::vector<std::string> notes;     // as most files have it: not worth a warning
-  std::vector<std::string> warnings;  // may be wrong
+  // Oddities and assumptions of the reader: whole sentences that name the file.
+  std::vector<std::string> notes;     // usual cases, not worth a warning
+  std::vector<std::string> warnings;  // possible errors
 };
 
 // The joints' positions at rest relative to the root.

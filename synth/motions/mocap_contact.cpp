@@ -17,8 +17,8 @@ using enum BoneId;
 
 // Longer than half a flight: a jump of 0.8 s would rise 0.78 m.
 constexpr double kHalfWindow_s = 0.4;
-// Markers and ankles wobble by about 2 cm on the floor. Heights up to that (as a share of leg
-// length) count as none, from twice that on as they are, with a smooth passage between.
+// Markers and ankles wobble by about 2 cm on the floor. Heights up to this share of the leg length
+// count as 0, heights from twice this share on are unchanged, with a smooth transition in between.
 constexpr double kNoiseOfLeg = 0.03;
 // A heel lies behind its ankle by this share of the distance from the ankle to the toes.
 constexpr double kHeelOfFoot = 0.25;

@@ -1,4 +1,5 @@
-// Whether twelve joints and a head are a person who stands upright, and which way is up and front.
+// Checks whether twelve joints and a head form an upright person, and finds its up and front
+// directions.
 #pragma once
 
 #include <optional>
@@ -16,7 +17,7 @@ struct FigureAxes {
   Matrix3<double> Rows() const;  // figure_from_file
 };
 
-// Left and up are made orthogonal: up counts.
+// Orthonormalises left and up; up is kept.
 FigureAxes AxesFrom(const Vector3<double>& left, const Vector3<double>& up);
 
 // From the middle of the ankles to the middle of the hips.
@@ -25,13 +26,13 @@ Vector3<double> LegsUp(const std::vector<Vector3<double>>& positions, const Moca
 // From the right hip to the left one.
 Vector3<double> HipsLeft(const std::vector<Vector3<double>>& positions, const MocapJoints& joints);
 
-// "" if the positions are those of somebody who stands upright, whatever the axes: legs straight
-// enough under the trunk, head above the hips, left shoulder above the left hip. Otherwise what is
-// not so, with the angle.
+// "" if the positions are those of an upright person in any axes: legs nearly straight under the
+// trunk, head above the hips, left shoulder above the left hip. Otherwise the condition that fails,
+// with the angle.
 std::string FigureProblem(const std::vector<Vector3<double>>& positions, const MocapJoints& joints);
 
-// How near a standing figure comes to the T-pose: 1 if it is one, less the more its trunk leans and
-// its limbs are bent. Used to choose among frames.
+// Similarity of a standing figure to the T-pose: 1 for a T-pose, lower for a leaning trunk and bent
+// limbs. Used to choose among frames.
 double TPoseLikeness(const std::vector<Vector3<double>>& positions, const MocapJoints& joints);
 
 // Mean length of both legs.

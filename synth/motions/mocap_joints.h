@@ -1,4 +1,4 @@
-// Which joints of a motion capture file are which of a human body's.
+// Maps the joints of a motion capture file to the skeleton's.
 #pragma once
 
 #include <array>
@@ -11,7 +11,8 @@
 
 namespace vitruvia {
 
-// A user's word on one joint, which the table of rigs (mocap_rigs.h) does not know or has wrong.
+// A joint named by the user, because the table of rigs (mocap_rigs.h) does not contain it or is
+// wrong for the file.
 struct MocapJointName {
   std::string file;  // the joint's name in the file
   std::string ours;  // a joint of the skeleton: left_wrist, …
@@ -20,7 +21,7 @@ struct MocapJointName {
   std::string Problem() const;
 };
 
-// Where a bone of ours takes its rotation from: `share` of the way from one joint's to another's.
+// Source of a bone's rotation: interpolation between the rotations of two joints by `share`.
 struct MocapBoneSource {
   int from = 0, to = 0;
   double share = 0.0;
@@ -37,8 +38,8 @@ struct MocapJoints {
   }
 };
 
-// Limbs and head are found by name, as the table of rigs has them or `named` says, pelvis and chest
-// as the joints from which legs and arms branch off, abdomen and neck between them. Both sides must
+// Limbs and head are found by name, from the table of rigs or `named`; pelvis and chest are the
+// joints from which legs and arms branch off, with abdomen and neck between them. Both sides must
 // have names of the same kind. DataError naming the file and what is missing or ambiguous.
 MocapJoints FindMocapJoints(const MocapClip& clip, const std::vector<MocapJointName>& named = {});
 

@@ -52,8 +52,8 @@ Vector3d MoveToStart(MocapClip& clip, const MocapJoints& joints) {
 void MocapSettings::Describe(Fields& f) {
   DescribeUpAxis(f, up_axis);
   f.List("joints", joints,
-         {.meaning = "which joints of the motion capture file are which, where their names do not "
-                     "tell (synth/motions/mocap_rigs.cpp lists the names that are known)"});
+         {.meaning = "mapping of joints of the motion capture file whose names are not known "
+                     "(synth/motions/mocap_rigs.cpp lists the known names)"});
 }
 
 std::string MocapSettings::Problem() const {

@@ -1,5 +1,5 @@
-// A motion capture clip as it is understood: which joint is which, in the subject's axes, scaled to
-// a body, and checked.
+// An interpreted motion capture clip: with mapped joints, in the subject's axes, scaled to a body,
+// and checked.
 #pragma once
 
 #include "synth/motions/mocap_axes.h"
@@ -7,7 +7,7 @@
 
 namespace vitruvia {
 
-// What a user says of a motion capture file, over what the file says itself.
+// User settings that override a motion capture file.
 struct MocapSettings {
   UpAxis up_axis = UpAxis::kFromFile;
   std::vector<MocapJointName> joints;
@@ -20,7 +20,7 @@ struct MocapPerformer {
   MocapClip clip;  // x left, y up, z front in the first frame, which is at the origin; metres
   MocapJoints joints;
   MocapAxes axes;  // of the file
-  // Where the front is in the first frame, horizontal, in the file's axes.
+  // Horizontal front direction of the first frame, in the file's axes.
   Vector3<double> facing = Vector3<double>::Zero();
   double metres_per_unit = 0.0;  // of the file, so that the legs are as long as the body's
   MocapCheck check;
@@ -29,8 +29,8 @@ struct MocapPerformer {
   std::vector<std::string> Warnings() const;
 };
 
-// DataError naming the file if its joints are not those of a person, or if it cannot be told which
-// way is up.
+// DataError naming the file if its joints are not those of a person, or if its up direction cannot
+// be determined.
 MocapPerformer Understand(MocapClip clip, const MocapSettings& settings, const Skeleton& skeleton);
 
 // Mean length of a body's legs.

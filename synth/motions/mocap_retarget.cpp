@@ -65,8 +65,8 @@ Matrix3d AlignLimb(const Vector3d& ours, const Vector3d& theirs) {
   return RotationBetween<double>(ours, theirs);
 }
 
-// Feet stand flat in our rest pose, and only their heading differs from body to body; the slope of
-// a line from ankle to toes says more about a rig's joints than about the foot.
+// Feet are flat in the skeleton's rest pose, and only their heading differs between bodies; the
+// slope of a line from ankle to toes depends more on the rig's joints than on the foot.
 Matrix3d AlignFoot(const Vector3d& our_foot, const Vector3d& their_shin,
                    const Vector3d& their_foot) {
   const Matrix3d rest_from_flat = RestFromFlatFoot(their_shin);
@@ -145,8 +145,8 @@ class Retargeter {
     return from.slerp(source.share, to);
   }
 
-  // Where joints move against their parents, a limb's bone points from joint to joint, not where
-  // its rotation alone takes it.
+  // If joints move relative to their parents, a limb's bone points from joint to joint, not in the
+  // direction of its rotation alone.
   void PointAlongLimb(std::size_t bone, const MocapPose& pose, Quaterniond& turned) const {
     for (const auto& [from, to] :
          {std::pair{kLeftUpperArm, kLeftForearm}, std::pair{kLeftForearm, kLeftHand},

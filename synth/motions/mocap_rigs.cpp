@@ -18,8 +18,8 @@ const std::array<LimbJointInfo, kLimbJointCount>& LimbJoints() {
 }
 
 // Names of bones stand for the joints at their near ends. A rig with both kinds of names (an ankle
-// and a foot, a wrist and a hand, a shoulder and an upper arm) is told by the whole row: the foot
-// of SMPL is the ball of the foot, its hand the middle of the hand; the wrist of CMU's Acclaim
+// and a foot, a wrist and a hand, a shoulder and an upper arm) is recognised by the whole row: the
+// foot of SMPL is the ball of the foot, its hand the middle of the hand; the wrist of CMU's Acclaim
 // files is a joint inside the forearm; the shoulder of Mixamo and Xsens MVN is the collar bone.
 std::span<const MocapRig> MocapRigs() {
   // A joint that is called wrist or ankle is that joint in any rig but CMU's.

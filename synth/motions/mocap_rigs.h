@@ -1,4 +1,4 @@
-// Which names the joints of a limb have in the rigs of common programs and data sets.
+// Joint names of limbs in the rigs of common programs and data sets.
 #pragma once
 
 #include <array>
@@ -22,15 +22,16 @@ struct LimbJointInfo {
 const std::array<LimbJointInfo, kLimbJointCount>& LimbJoints();
 
 // A convention: for each joint its names without the side, in lower case, letters and digits only;
-// the first that a file has for both sides is taken. `mark` is a joint that tells the convention
-// from others with the same names, "" where there is none.
+// the first that a file has for both sides is taken. `mark` is a joint that distinguishes the
+// convention from others with the same names, or "".
 struct MocapRig {
   const char* name;
   std::string_view mark;
   std::array<std::vector<std::string_view>, kLimbJointCount> names;
 };
 
-// The first of which a file has all names is the file's. The last ones take any mixture of names.
+// A file's convention is the first one of which it has all names. The last ones accept any mixture
+// of names.
 std::span<const MocapRig> MocapRigs();
 
 }  // namespace vitruvia

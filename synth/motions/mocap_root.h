@@ -1,4 +1,4 @@
-// Whether the path of a clip's root fits the limbs that hang on it.
+// Checks whether the path of a clip's root is consistent with its limbs.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@
 
 namespace vitruvia {
 
-// All in the subject's axes (y up) and metres; `poses` are those of the clip's frames. What is
-// returned begins no sentence and names no file; "" where nothing is odd.
+// All in the subject's axes (y up) and metres; `poses` are those of the clip's frames. The
+// functions return part of a sentence that does not name the file, or "" if there is no doubt.
 
-// The root's height above 0, where most files have the floor, is its height above the lowest joint
-// but for a factor between two units of length.
+// Doubt if the root's height above 0, the floor of most files, differs from its height above the
+// lowest joint by the ratio of two units of length.
 std::string RootUnitDoubt(const MocapClip& clip, const MocapJoints& joints,
                           const std::vector<MocapPose>& poses);
 
-// The root never moves, but the foot on which the performer stands does.
+// Doubt if the root never moves, but the supporting foot does.
 std::string FixedRootDoubt(const MocapClip& clip, const MocapJoints& joints,
                            const std::vector<MocapPose>& poses);
 

@@ -37,7 +37,8 @@ class MocapWords {
   // The rest of the line of the next word; empty if that word is not on `line`.
   std::vector<Word> TakeRestOf(int line);
 
-  // Finite and of a size that lengths and angles have; otherwise DataError with the likely cause.
+  // A finite number of a plausible size for a length or angle; otherwise DataError with the likely
+  // cause.
   double Number(const Word& word, std::string_view what) const;
   [[noreturn]] void Fail(int line, std::string_view problem) const;
   std::string At(int line, std::string_view text) const;  // "file:line: text"

@@ -14,9 +14,9 @@
 namespace vitruvia {
 namespace {
 
-// The subject stands in the rest pose, goes over into the motion's pose at start_s, and from there
-// on does the motion. The motion is shifted and turned on the floor so that at its start the pelvis
-// stands where it stood at rest; the rest pose itself always faces the front.
+// The subject stands in the rest pose, blends into the motion's pose at start_s, and then follows
+// the motion. The motion is shifted and rotated on the floor so that the pelvis starts where it was
+// in the rest pose; the rest pose itself always faces the front.
 class MotionAfterRest final : public Motion {
  public:
   MotionAfterRest(std::unique_ptr<Motion> motion, const MotionSettings& settings,
@@ -107,14 +107,16 @@ void MotionSettings::Describe(Fields& f) {
            {.meaning = "time in the motion at which the sequence begins", .unit = "s", .min = 0.0});
   f.Number("speed", speed, {.meaning = "playback rate", .min = 0.01, .max = 100.0});
   f.Number("rest_s", rest_s,
-           {.meaning = "how long the subject stands in the T-pose first", .unit = "s", .min = 0.0});
+           {.meaning = "time for which the subject first stands in the T-pose",
+            .unit = "s",
+            .min = 0.0});
   f.Number("blend_s", blend_s,
-           {.meaning = "how long it takes from the T-pose to the motion's first pose",
+           {.meaning = "duration of the transition from the T-pose to the motion's first pose",
             .unit = "s",
             .min = 0.0});
   f.Number("heading_deg", heading_deg,
-           {.meaning = "turns the motion about the vertical through its start, to the subject's "
-                       "left; the T-pose before it faces the front all the same",
+           {.meaning = "rotation of the motion about the vertical axis through its start, to the "
+                       "subject's left; the T-pose before it still faces the front",
             .unit = "deg",
             .min = -360.0,
             .max = 360.0});

@@ -32,8 +32,8 @@ struct MotionSettings {
 
 struct MotionSample {
   JointPose pose;
-  // Where the body is to be put vertically: true: so that its lowest surface point is clearance_m
-  // above the floor; false: pelvis_position says it all.
+  // Vertical position of the body. true: its lowest surface point is clearance_m above the floor;
+  // false: pelvis_position is used unchanged.
   bool grounded = true;
   double clearance_m = 0.0;
 };
@@ -43,12 +43,15 @@ class Motion {
   virtual ~Motion() = default;
   virtual MotionSample At(double time_s) const = 0;  // 0 … duration; held at the ends, or looped
   virtual double duration_s() const = 0;
-  virtual bool repeats() const { return false; }  // for ever; the last pose is held otherwise
-  // What its file leaves in doubt: whole sentences that name the file.
+  virtual bool repeats() const {
+    return false;
+  }  // true: repeats for ever; false: the last pose is
+     // held
+  // Doubts about its file: whole sentences that name the file.
   virtual std::vector<std::string> warnings() const { return {}; }
 };
 
-// A motion capture file as it is understood for a body; misuse if the source is key frames.
+// Interprets a motion capture file for a body; std::invalid_argument if the source is key frames.
 MocapPerformer LoadPerformer(const MotionSettings& settings, const Skeleton& skeleton);
 
 // The motion retargeted to a body, with the T-pose lead-in of the settings. DataError / ConfigError

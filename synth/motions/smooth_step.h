@@ -1,4 +1,4 @@
-// A step without a jerk: 0 below 0, 1 above 1, with zero slope at both (3u² − 2u³ between).
+// A smooth step: 0 below 0, 1 above 1, with zero slope at both (3u² − 2u³ between).
 #pragma once
 
 #include <algorithm>

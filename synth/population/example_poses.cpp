@@ -78,13 +78,13 @@ void ExamplePoseSettings::Describe(Fields& f) {
             .max = 1.0,
             .origin = Origin::kGuessed});
   f.Number("limits_used", limits_used,
-           {.meaning = "share of each joint's range, round its middle, that is drawn from",
+           {.meaning = "share of each joint's range, centred, from which angles are drawn",
             .min = 0.0,
             .max = 1.0,
             .origin = Origin::kTuned,
             .source = "weights learnt at 0.6 cost figure 11's fitted subject 5 % more error"});
   f.Number("bulge_m", bulge_m,
-           {.meaning = "how far flesh at an elbow or knee bent by a right angle bulges",
+           {.meaning = "height of the bulge of flesh at an elbow or knee bent by a right angle",
             .unit = "m",
             .min = 0.0,
             .max = 0.1,

@@ -1,5 +1,5 @@
-// One person in many poses, deformed as no linear blend skinning deforms: what the learning of
-// skinning weights is given.
+// Examples for learning skinning weights: one person in many poses, with deformations that linear
+// blend skinning cannot represent.
 #pragma once
 
 #include <filesystem>

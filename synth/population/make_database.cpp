@@ -24,10 +24,12 @@ DatabaseSettings::DatabaseSettings() { mesh.subdivisions = kMannequinSteps; }
 void DatabaseSettings::Describe(Fields& f) {
   f.Section("population", population, {.meaning = "the people"});
   f.Section("mesh", mesh, {.meaning = "the learning mesh"});
-  f.Integer("subjects_with_poses", subjects_with_poses,
-            {.meaning = "how many subjects, from the first, have pose examples; they are large",
-             .min = 0,
-             .max = 100000});
+  f.Integer(
+      "subjects_with_poses", subjects_with_poses,
+      {.meaning =
+           "number of subjects, from the first, that have pose examples, which take much memory",
+       .min = 0,
+       .max = 100000});
   f.Section("poses", poses, {.meaning = "the pose examples"});
 }
 

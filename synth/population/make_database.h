@@ -18,15 +18,14 @@ struct DatabaseSettings {
   std::string Problem() const;
 };
 
-// The poses that a subject of the population, of that name, is given as examples.
+// The example poses of the population's subject of that name.
 PoseExamples MakePoseExamples(const DatabaseSettings& settings, const std::string& name,
                               const ControlBody& body);
 // "s000", "s001", …
 std::string SubjectName(int number);
 
-// Same settings: the same database. The first
-// subjects_with_poses of them have pose examples. How examples differ from linear blend skinning
-// stands in the provenance.
+// The same settings give the same database. The first subjects_with_poses subjects have pose
+// examples. The provenance states how the examples differ from linear blend skinning.
 BodyDatabase MakeDatabase(const DatabaseSettings& settings);
 
 }  // namespace vitruvia

@@ -30,7 +30,7 @@ double DrawSlider(RandomStream& random, double deviation) {
 void PopulationSettings::Describe(Fields& f) {
   f.Choice("source", source,
            {{"mannequin", BodySource::kMannequin}, {"makehuman", BodySource::kMakeHuman}},
-           {.meaning = "where the bodies come from"});
+           {.meaning = "source of the bodies"});
   f.Integer("subjects", subjects,
             {.meaning = "number of people",
              .min = 2,

@@ -36,8 +36,8 @@ class Population {
   explicit Population(const PopulationSettings& settings);
   ~Population();
 
-  // The subject of that number: independent of which others were asked for. Its attributes are
-  // those of its mesh: height of the surface, weight by volume and density.
+  // The subject of that number, independent of the order of calls. Its attributes are those of its
+  // mesh: height of the surface, weight by volume and density.
   ControlBody Subject(int number);
 
  private:

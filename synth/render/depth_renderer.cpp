@@ -11,8 +11,8 @@ namespace {
 
 constexpr int kDepthBits = 32;
 
-// OSMesa's own functions, asked for by name: a program that also draws with other libraries may
-// hold another set of the same names, and the linker's choice between them is not ours.
+// Looks up OSMesa's own functions by name: a program that also draws with other libraries may
+// contain other functions of the same names, and the linker might choose those.
 template <class Function>
 Function* Find(const char* name) {
   auto* function = reinterpret_cast<Function*>(OSMesaGetProcAddress(name));
@@ -55,7 +55,8 @@ std::array<double, 16> ClipFromCamera(const PinholeCamera& c, double near_m, dou
   return m;
 }
 
-// Misuse that would make the driver read beyond an array, or draw anything at all.
+// std::invalid_argument for input with which the driver would read beyond an array or draw
+// undefined pixels.
 void RequireDrawable(const std::vector<Vector3f>& vertices,
                      const std::vector<Triangle>& triangles) {
   for (std::size_t i = 0; i < vertices.size(); ++i) {

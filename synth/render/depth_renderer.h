@@ -1,4 +1,4 @@
-// Depth of a triangle mesh by OSMesa: the renderer of ground truth. Needs no display.
+// Renders the depth of a triangle mesh with OSMesa, for ground truth. Needs no display.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@ class DepthRenderer {
   explicit DepthRenderer(const PinholeCamera& camera, double near_m = 0.2, double far_m = 10.0);
   ~DepthRenderer();
 
-  // Vertices in the camera frame, metres. Depth along z at pixel centres, 0 where nothing is.
+  // Vertices in the camera frame, metres. Depth along z at pixel centres, 0 where no triangle is.
   DepthImage Render(const std::vector<Vector3f>& vertices_in_camera,
                     const std::vector<Triangle>& triangles);
 

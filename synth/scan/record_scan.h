@@ -1,4 +1,4 @@
-// A scan's frames on disk, as a sequence: to look at, or to be fused later as recorded ones are.
+// Stores a scan's frames as a sequence, for inspection or later fusion.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 namespace vitruvia {
 
 // Writes a sequence (sequence/sequence.h) whole or not at all. Its camera frame moves: the true
-// vertices and joints are those of the subject before the moving camera. The provenance holds the
-// scene and where the first frame was taken from (camera_from_subject, row by row).
+// vertices and joints are given in the frame of the moving camera. The provenance holds the scene
+// and the camera pose of the first frame (camera_from_subject, row by row).
 void RecordScan(const ScanSceneSettings& settings, const std::filesystem::path& folder);
 
 }  // namespace vitruvia

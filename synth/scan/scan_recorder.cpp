@@ -52,7 +52,7 @@ void Quantize(DepthImage& depth, double unit_m) {
   for (float& z : depth.pixels()) z = static_cast<float>(std::round(z / unit_m) * unit_m);
 }
 
-// The depth range is the renderer's: beyond it the surface would be cut open without a word.
+// Checks the renderer's depth range, beyond which the surface would be clipped silently.
 void RequireInRange(const std::vector<Vector3f>& vertices_in_camera, int frame) {
   for (const Vector3f& p : vertices_in_camera) {
     if (p.z() >= kNearM && p.z() <= kFarM) continue;

@@ -1,4 +1,4 @@
-// The depth frames of a scan, rendered one by one, and the truth about them.
+// The depth frames of a scan, rendered one by one, with their ground truth.
 #pragma once
 
 #include <memory>
@@ -11,9 +11,9 @@
 namespace vitruvia {
 
 struct ScanFrame {
-  DepthImage depth;  // as a sensor stores it: in steps of sensor.depth_unit_m
-  // From the subject as it stood at the first frame. The subject sways, and a scan can only know
-  // where the camera is relative to it: this follows the chest.
+  DepthImage depth;  // quantised to sensor.depth_unit_m
+  // Relative to the subject in the first frame. The subject sways, and a scan determines only the
+  // camera's pose relative to it, so this transform follows the chest.
   Rigidd camera_from_subject;
   // The swaying subject's surface and joints, camera frame.
   std::vector<Vector3f> vertices;
@@ -23,18 +23,18 @@ struct ScanFrame {
 class ScanRecorder {
  public:
   explicit ScanRecorder(const ScanSceneSettings& settings);
-  // Of that person instead of the settings' one.
+  // Records that person instead of the settings' one.
   ScanRecorder(const ScanSceneSettings& settings, BodyModel person);
   ~ScanRecorder();
 
   const ScanSceneSettings& settings() const { return settings_; }
   // The subject, in the T-pose.
   const BodyModel& body() const { return body_; }
-  // Its surface as it stands at the first frame: what a scan should find. Subject frame.
+  // Its surface in the first frame, which a scan should reconstruct. Subject frame.
   const TriangleMesh& surface() const { return surface_; }
 
-  // Frames 0 … settings.frames − 1, in any order. ConfigError if the body comes too near to the
-  // camera or too far from it to be rendered.
+  // Frames 0 … settings.frames − 1, in any order. ConfigError if the body leaves the renderer's
+  // depth range.
   ScanFrame Render(int frame);
 
  private:

@@ -10,11 +10,12 @@ constexpr double kNearestRadiusM = 0.6;  // clear of the body, but for its outst
 }  // namespace
 
 void CameraPathSettings::Describe(Fields& f) {
-  f.Number("start_deg", start_deg,
-           {.meaning = "where the camera starts: 0 in front of the subject, 90 on its left",
-            .unit = "deg",
-            .min = -360.0,
-            .max = 360.0});
+  f.Number(
+      "start_deg", start_deg,
+      {.meaning = "azimuth at which the camera starts: 0 in front of the subject, 90 on its left",
+       .unit = "deg",
+       .min = -360.0,
+       .max = 360.0});
   f.Number("radius_m", radius_m,
            {.meaning = "distance from the vertical axis through the subject's place",
             .unit = "m",
@@ -24,7 +25,7 @@ void CameraPathSettings::Describe(Fields& f) {
       "turns", turns,
       {.meaning = "turns round the subject, towards its left first", .min = -20.0, .max = 20.0});
   f.Numbers("heights_m", heights_m,
-            {.meaning = "the camera goes up and down between these heights, from the first on",
+            {.meaning = "heights between which the camera moves up and down, starting at the first",
              .unit = "m",
              .min = 0.0,
              .max = 5.0});
@@ -63,7 +64,7 @@ std::string CameraPathSettings::Problem() const {
 
 void StanceSettings::Describe(Fields& f) {
   f.Number("arms_lowered_deg", arms_lowered_deg,
-           {.meaning = "how far the arms hang below the T-pose's",
+           {.meaning = "angle by which the arms hang below those of the T-pose",
             .unit = "deg",
             .min = -30.0,
             .max = 60.0});
@@ -87,12 +88,13 @@ void StanceSettings::Describe(Fields& f) {
 }
 
 void BystanderSettings::Describe(Fields& f) {
-  f.Numbers("place_m", place_m,
-            {.meaning = "where another body of the same form stands: x to the subject's left, z to "
-                        "its front",
-             .unit = "m",
-             .min = -10.0,
-             .max = 10.0});
+  f.Numbers(
+      "place_m", place_m,
+      {.meaning =
+           "position of another body of the same shape: x to the subject's left, z to its front",
+       .unit = "m",
+       .min = -10.0,
+       .max = 10.0});
 }
 
 void ScanSceneSettings::Describe(Fields& f) {
@@ -102,7 +104,7 @@ void ScanSceneSettings::Describe(Fields& f) {
   f.List("bystanders", bystanders, {.meaning = "others who stand in view"});
   f.Section("camera", camera, {.meaning = "intrinsics"});
   f.Section("path", path, {.meaning = "how the camera moves"});
-  f.Section("sensor", sensor, {.meaning = "what the camera makes of true depth"});
+  f.Section("sensor", sensor, {.meaning = "sensor model of the camera"});
   f.Integer("frames", frames,
             {.meaning = "length of the scan",
              .min = 1,

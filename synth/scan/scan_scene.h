@@ -1,4 +1,4 @@
-// A scan as it is taken: the camera moves round a subject that tries to stand still in the T-pose.
+// The scene of a scan: the camera moves round a subject that tries to stand still in the T-pose.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace vitruvia {
 
-// Round the vertical axis through the subject's place, up and down on the way.
+// The camera moves about the vertical axis through the subject, and up and down.
 struct CameraPathSettings {
   double start_deg = 0.0;
   double radius_m = 1.9;

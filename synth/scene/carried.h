@@ -1,4 +1,4 @@
-// A box that a limb carries: it hides what is behind it and moves with the bone.
+// A box that a limb carries: it moves with the bone and occludes what is behind it.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Something that moves between camera and subject: a post of a person's size.
+// An occluder that moves between camera and subject: a post of a person's size.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct WayPoint {
   void Describe(Fields& fields);
 };
 
-// The time in which something is in the scene.
+// The interval of time in which an object is in the scene.
 struct Presence {
   double from_s = 0.0, to_s = 1e6;
 
@@ -44,7 +44,7 @@ struct OccluderSettings {
   std::string Problem() const;
 };
 
-// Where its middle is at that time: x and z.
+// Position of its centre at that time: x and z.
 std::array<double, 2> PositionAt(const OccluderSettings& settings, double time_s);
 
 // Adds the occluder as it stands at that time to a mesh in the camera frame, metres.

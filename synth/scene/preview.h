@@ -1,4 +1,4 @@
-// A quick look at a scene.
+// Previews of a scene.
 #pragma once
 
 #include <string>
@@ -20,8 +20,7 @@ struct ScenePreview {
   std::vector<std::string> warnings;
 };
 
-// So many frames of the scene (or all, if it has fewer), the first, the last and between them at
-// equal distances.
+// `count` evenly spaced frames of the scene, including the first and the last; all if it has fewer.
 ScenePreview PreviewScene(const SceneSettings& settings, int count);
 
 }  // namespace vitruvia

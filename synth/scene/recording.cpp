@@ -22,8 +22,8 @@
 namespace vitruvia {
 namespace {
 
-// How far the template, moved by the true bones, is from the truth: what remains for a tracker that
-// finds the true pose.
+// Distance of the template, moved by the true bones, from the true surface: the error of a tracker
+// that finds the true pose.
 class TemplateMisfit {
  public:
   TemplateMisfit(const BodyModel& subject, const BodyModel& truth)
@@ -72,7 +72,7 @@ std::string SensorDifference(const SensorSettings& sensor) {
   return "";
 }
 
-// Where the generator and a tracker's model differ: a score says little without it.
+// Differences between the generator and a tracker's model, which are needed to interpret scores.
 std::vector<std::string> Differences(const SceneSettings& s, const BodyModel& truth,
                                      const BodyModel& subject) {
   std::vector<std::string> differences;
@@ -120,7 +120,7 @@ SequenceInfo Info(const SceneSettings& settings, const BodyModel& truth, const B
   return info;
 }
 
-// The depth range is the renderer's: beyond it the surface would be cut open without a word.
+// Checks the renderer's depth range, beyond which the surface would be clipped silently.
 void RequireInRange(const std::vector<Vector3f>& vertices_in_camera, int frame) {
   for (const Vector3f& p : vertices_in_camera) {
     if (p.z() >= kNearest_m && p.z() <= kFarthest_m) continue;

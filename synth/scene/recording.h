@@ -1,4 +1,4 @@
-// The recording of a scene whose bodies and motion are already there.
+// Records a scene with given bodies and motion.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 namespace vitruvia {
 
 // Moves `truth`, renders and measures it as `settings` say, and writes the sequence. `subject` is
-// the template that goes with it. Settings of the body, the motion and the refinements are only
-// noted in the provenance.
+// the template that is stored with it. Settings of the body, the motion and the refinements are
+// only stored in the provenance.
 void RecordSequence(const SceneSettings& settings, const BodyModel& truth, const BodyModel& subject,
                     const Motion& motion, const std::filesystem::path& folder);
 

@@ -1,4 +1,4 @@
-// The room that a scene takes place in: floor, walls and furniture, which stand still.
+// The static room of a scene: floor, walls and furniture.
 #pragma once
 
 #include <array>

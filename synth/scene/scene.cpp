@@ -26,14 +26,14 @@ void TruthSettings::Describe(Fields& f) {
                        "dual quaternions (paper B, eqs. 3 and 4)"});
   f.Visit(refinement);
   f.Section("cloth", cloth,
-            {.meaning = "clothes and other volumes that the template does not know"});
+            {.meaning = "clothes and differences of volume that the template does not have"});
 }
 
 void ViewSettings::Describe(Fields& f) {
   f.Section("camera", camera, {.meaning = "intrinsics"});
   f.Numbers("position_m", position_m,
-            {.meaning = "where the camera is: x to the subject's left, y up, z to the front, from "
-                        "the floor under the subject's start",
+            {.meaning = "position of the camera: x to the subject's left, y up, z to the front, "
+                        "from the floor under the subject's start",
              .unit = "m",
              .min = -20.0,
              .max = 20.0});
@@ -42,12 +42,12 @@ void ViewSettings::Describe(Fields& f) {
              .unit = "m",
              .min = -20.0,
              .max = 20.0});
-  f.Number("roll_deg", roll_deg,
-           {.meaning = "how far the camera is turned about its line of sight, clockwise as it sees "
-                       "the scene",
-            .unit = "deg",
-            .min = -360.0,
-            .max = 360.0});
+  f.Number(
+      "roll_deg", roll_deg,
+      {.meaning = "rotation of the camera about its line of sight, clockwise as seen by the camera",
+       .unit = "deg",
+       .min = -360.0,
+       .max = 360.0});
 }
 
 std::string ViewSettings::Problem() const {
@@ -87,10 +87,10 @@ void SceneSettings::Describe(Fields& f) {
   f.Section("view", view, {.meaning = "the camera and where it stands"});
   f.List("views", views,
          {.meaning = "other cameras that record the same, for scores; no tracker sees them"});
-  f.Section("occluder", occluder, {.meaning = "what walks past between camera and subject"});
+  f.Section("occluder", occluder, {.meaning = "post that moves between camera and subject"});
   f.Section("carried", carried, {.meaning = "what the subject carries"});
-  f.Section("room", room, {.meaning = "what stands still round the subject"});
-  f.Section("sensor", sensor, {.meaning = "what the camera makes of true depth"});
+  f.Section("room", room, {.meaning = "static room round the subject"});
+  f.Section("sensor", sensor, {.meaning = "sensor model of the camera"});
   f.Integer("frames", frames, {.meaning = "length of the sequence", .min = 1, .max = 100000});
   f.Number("fps", fps,
            {.meaning = "frames per second",

@@ -1,4 +1,5 @@
-// A scene: who moves how before which camera, and how the truth differs from the tracker's model.
+// A scene: person, motion and camera, and the differences between the true surface and the
+// tracker's model.
 #pragma once
 
 #include <array>
@@ -70,7 +71,7 @@ struct SceneSettings {
 };
 
 // Renders the scene and writes the sequence (sequence/sequence.h). Same settings: same bytes.
-// ConfigError if the body comes too near to the camera or too far from it to be rendered.
+// ConfigError if the body leaves the renderer's depth range.
 void SynthesizeSequence(const SceneSettings& settings, const std::filesystem::path& folder);
 
 }  // namespace vitruvia

@@ -1,4 +1,4 @@
-// What somebody who reads a scene's sequence should know.
+// Warnings for users of a scene's sequence.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace vitruvia {
 
-// Of the motion's file; of a scene that goes on when its motion has ended; of a first frame in
-// which a tracker does not see the whole person and nothing else.
+// Warnings about the motion's file, about a scene that is longer than its motion, and about a first
+// frame that does not show the whole person and nothing else.
 std::vector<std::string> SceneWarnings(const SceneSettings& settings, const Motion& motion,
                                        Stage& stage);
 

@@ -1,4 +1,4 @@
-// The scene at any time, and what its camera sees of it.
+// The scene at any time, and its rendering in the scene's camera.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,10 @@
 
 namespace vitruvia {
 
-// Of the renderer; the body must stay between them.
+// Clipping planes of the renderer; the body must stay between them.
 inline constexpr double kNearest_m = 0.2, kFarthest_m = 12.0;
 
-// The body's surface and joints in the camera frame, and the motion that brought them there.
+// The body's surface and joints in the camera frame, and the transforms of its bones.
 struct TruePose {
   std::vector<Vector3f> vertices;
   std::vector<Vector3<double>> joints;
@@ -22,7 +22,7 @@ struct TruePose {
 TruePose Pose(const BodyModel& body, const MotionSample& sample, Skinning skinning,
               const Rigidd& camera_from_subject);
 
-// The body, dressed and posed, with what is round it, before a camera without noise. Settings and
+// The dressed and posed body with its surroundings, seen by a noise-free camera. Settings and
 // motion must outlive it.
 class Stage {
  public:
@@ -33,7 +33,7 @@ class Stage {
   const DepthImage& room() const { return room_; }
   // `body` as PosedAt gave it last, for the same time.
   DepthImage Rendered(double time_s, const TruePose& body);
-  // Where nothing hides the body.
+  // The body without anything that hides it.
   DepthImage RenderedAlone(const TruePose& body);
   // Where `depth`, rendered at the same time, shows the body.
   MaskImage BodyMask(const TruePose& body, const DepthImage& depth);
@@ -48,7 +48,7 @@ class Stage {
   DepthImage room_;
 };
 
-// What the sensor delivers of a frame: perhaps late, with noise, or nothing.
+// The sensor's output for a frame: possibly late, noisy, or empty.
 class StageSensor {
  public:
   explicit StageSensor(const SceneSettings& settings);

@@ -8,7 +8,8 @@ namespace vitruvia {
 
 void DeliverySettings::Describe(Fields& f) {
   f.Number("latency_s", latency_s,
-           {.meaning = "delay: a frame shows the body as it was this long before its truth",
+           {.meaning = "delay of the images: a frame shows the body as it was this long before the "
+                       "time of the frame's truth",
             .unit = "s",
             .min = 0,
             .max = 10});

@@ -1,4 +1,4 @@
-// When frames arrive, if they do.
+// Delay and loss of frames.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What a sensor's model expects of each pixel, without drawing anything.
+// The noise that a sensor model predicts for each pixel, without sampling.
 #pragma once
 
 #include "geometry/camera.h"

@@ -17,18 +17,19 @@ void JointStandInSettings::Describe(Fields& f) {
             .origin = Origin::kGuessed,
             .source = "better than a Kinect's, whose joints are off by some centimetres"});
   f.Number("depth_bias_m", depth_bias_m,
-           {.meaning = "how much farther along the line of sight joints are put than they are",
+           {.meaning = "bias of the joints' depth along the line of sight",
             .unit = "m",
             .min = -1.0,
             .max = 1.0,
             .origin = Origin::kGuessed});
   f.Number("outlier_share", outlier_share,
-           {.meaning = "share of the joints that are anywhere in a cube round the true position",
+           {.meaning =
+                "share of the joints that are outliers, uniform in a cube round the true position",
             .min = 0.0,
             .max = 1.0,
             .origin = Origin::kGuessed});
   f.Number("outlier_reach_m", outlier_reach_m,
-           {.meaning = "half the edge of that cube",
+           {.meaning = "half edge length of the outliers' cube",
             .unit = "m",
             .min = 0.0,
             .max = 2.0,

@@ -1,5 +1,5 @@
-// A stand-in for a joint detector: true joints with stated noise. It sees hidden joints as well as
-// visible ones, and no surface; results that rest on it must say so.
+// A stand-in for a joint detector: true joints with stated noise. It detects hidden joints as well
+// as visible ones and does not use the surface; results that depend on it must say so.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace vitruvia {
 
-// The form that Wang, Kurillo, Ofli & Bajcsy, "Evaluation of pose tracking accuracy in the first
-// and second generations of Microsoft Kinect", ICHI 2015, fit to a Kinect's joints: a Gaussian with
-// a bias, and rarely an even distribution.
+// The noise model that Wang, Kurillo, Ofli & Bajcsy, "Evaluation of pose tracking accuracy in the
+// first and second generations of Microsoft Kinect", ICHI 2015, fit to a Kinect's joints: a
+// Gaussian with a bias, mixed with a rare uniform distribution.
 struct JointStandInSettings {
   double deviation_m = 0.01;
   double depth_bias_m = 0.0;

@@ -63,15 +63,16 @@ void SensorSettings::Describe(Fields& f) {
              {.meaning = "share of pixels, drawn at random, that have no measurement",
               .min = 0.0,
               .max = 1.0});
-    f.Integer("shared_px", shared_px,
-              {.meaning = "width of the square window of pixels over which the noise of depth is "
-                          "averaged, its deviation at each pixel kept; 1: independent pixels",
-               .unit = "px",
-               .min = 1,
-               .max = 99,
-               .origin = Origin::kGuessed,
-               .source = "the published models give no correlation; a Kinect v1 correlates a "
-                         "pattern over windows of 9 pixels of its own image"});
+    f.Integer(
+        "shared_px", shared_px,
+        {.meaning = "width of the square window of pixels over which depth noise is correlated, at "
+                    "the same standard deviation per pixel; 1: independent pixels",
+         .unit = "px",
+         .min = 1,
+         .max = 99,
+         .origin = Origin::kGuessed,
+         .source = "the published models give no correlation; a Kinect v1 correlates a "
+                   "pattern over windows of 9 pixels of its own image"});
   }
   f.Number("depth_unit_m", depth_unit_m,
            {.meaning = "unit of stored depth",

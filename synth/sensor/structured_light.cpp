@@ -51,7 +51,7 @@ class ProjectorRow {
   std::vector<float> nearest_;
 };
 
-// What chance decides, at every pixel: no setting shifts the noise of the others.
+// Random draws for every pixel, so that no setting changes the noise of other pixels.
 struct PatternDraws {
   Image<double> across, down, along;  // standard normal
   Image<double> luck;                 // even in [0, 1)
@@ -238,8 +238,8 @@ DepthImage MeasureByStructuredLight(const DepthImage& true_depth, const PinholeC
   DepthImage measured(true_depth.width(), true_depth.height());
   for (int v = 0; v < true_depth.height(); ++v) {
     for (int u = 0; u < true_depth.width(); ++u) {
-      // An edge is seen elsewhere than it is. Within a surface the place makes no difference: the
-      // deviation of depth, which was measured with it, has it already.
+      // An edge is displaced laterally. Within a surface the displacement is not applied, because
+      // the published deviation of depth already includes its effect.
       int from_u = u, from_v = v;
       const double lateral = LateralDeviationPx(settings, double{angles(u, v)}) * pixels_per_native;
       const int moved_u = u + static_cast<int>(std::lround(draws.across(u, v) * lateral));
@@ -255,7 +255,7 @@ DepthImage MeasureByStructuredLight(const DepthImage& true_depth, const PinholeC
           (draws.luck(u, v) < settings.edge_loss && IsAtEdge(true_depth, from_u, from_v))) {
         continue;
       }
-      // The published deviation is that of quantised depth: what the steps add is taken off.
+      // The published deviation includes quantisation, so that part is subtracted.
       const double total = AxialDeviation(settings, z, angle), step = DepthStep(settings, z);
       const double before = std::sqrt(std::max(total * total - step * step / 12.0, 0.0));
       measured(u, v) = static_cast<float>(QuantizedDepth(settings, z + draws.along(u, v) * before));

@@ -4,9 +4,9 @@
 // tracking", 3DIMPVT 2012 (axial and lateral deviations); Khoshelham & Elberink, "Accuracy and
 // resolution of Kinect depth data for indoor mapping applications", Sensors 2012 (disparity).
 //
-// Departures: the noise of depth is shared over a stated window (shared_noise.h; none by default),
-// while the real camera's is smooth over its correlation window; surfaces that only the projector
-// sees cast no shadow.
+// Departures: the noise of depth is correlated over a given window (shared_noise.h; none by
+// default), while the real camera's noise is smooth over its correlation window; surfaces that only
+// the projector sees cast no shadow.
 #pragma once
 
 #include "config/settings.h"

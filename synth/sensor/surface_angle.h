@@ -1,4 +1,4 @@
-// What a depth image tells of the surface that it shows: its slope, and where it ends.
+// Incidence angle and edges of the surface in a depth image.
 #pragma once
 
 #include "geometry/camera.h"
@@ -7,8 +7,8 @@
 
 namespace vitruvia {
 
-// Neighbouring pixels whose depths differ by more lie on different surfaces. At 3 m and 320 columns
-// a surface reaches it at an angle of 78 degrees.
+// Neighbouring pixels whose depths differ by more than this lie on different surfaces. At 3 m and
+// 320 columns, a surface at an incidence angle of 78 degrees reaches this difference.
 inline constexpr float kEdgeJumpM = 0.05f;
 
 // Both measured and on one surface.
@@ -20,8 +20,8 @@ inline bool AreOnOneSurface(float z, float other_z) {
 // differences between neighbours on the same surface; 0 where a pixel has none in some direction.
 Image<float> IncidenceAngles(const DepthImage& depth, const PinholeCamera& camera);
 
-// Whether one of the eight neighbours of a measured pixel is not on its surface, or one of those of
-// an empty pixel is measured. The image's border is no edge.
+// Whether a measured pixel has one of its eight neighbours not on its surface, or an empty pixel
+// has a measured neighbour. The image's border is not an edge.
 bool IsAtEdge(const DepthImage& depth, int u, int v);
 
 }  // namespace vitruvia

@@ -38,7 +38,7 @@ Meeting SurfacesAt(const DepthImage& depth, int u, int v, float reach_m) {
   return meeting;
 }
 
-// What chance decides, at every pixel: no setting shifts the noise of the others.
+// Random draws for every pixel, so that no setting changes the noise of other pixels.
 struct PhaseDraws {
   Image<double> along;          // standard normal
   Image<double> luck, mixture;  // even in [0, 1)
@@ -102,8 +102,8 @@ void TimeOfFlightSettings::Describe(Fields& f) {
             .origin = Origin::kGuessed,
             .source = "a pixel wide seam, in part removed by drivers"});
   f.Number("flying_reach_m", flying_reach_m,
-           {.meaning = "flying pixels farther behind the nearer surface are taken for background "
-                       "and removed with it",
+           {.meaning = "flying pixels farther than this behind the nearer surface count as "
+                       "background and are removed",
             .unit = "m",
             .min = 0,
             .max = 10,
@@ -160,7 +160,7 @@ DepthImage MeasureByTimeOfFlight(const DepthImage& true_depth, const PinholeCame
             SurfacesAt(true_depth, u, v, static_cast<float>(settings.flying_reach_m));
         z = surfaces.nearest +
             static_cast<float>(draws.mixture(u, v)) * (surfaces.farthest - surfaces.nearest);
-        angle = 0.0;  // a mixture of signals, no surface that light could graze
+        angle = 0.0;  // a mixture of signals, without a grazing angle
       }
       if (!(z >= settings.min_depth_m && z <= settings.max_depth_m) || angle > max_angle_rad) {
         continue;

@@ -1,9 +1,9 @@
-// What a joint detector asks of a depth image round a point: a difference of two depths.
+// Depth features of a joint detector: differences of two depths near a point.
 //
 // f = d(π(x + u)) − d(π(x + w)) (Shotton et al. 2011), with offsets u and w in metres across the
 // line of sight, so that f does not depend on the distance to the camera; or f = d(π(x + u)) −
-// z(x), which says where the surface is against the point. Depths without a measurement count as
-// kBackground_m behind the point, and all are kept within that of it.
+// z(x), the surface's depth relative to the point. A missing measurement counts as kBackground_m
+// behind the point, and all depths are clamped to within kBackground_m of the point.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ struct CroppedDepth {
   Image<std::uint16_t> depth_mm;  // 0 = no measurement
   int left = 0, top = 0;
 
-  float At(int u, int v) const {  // metres, 0 where nothing is
+  float At(int u, int v) const {  // metres, 0: no measurement
     const int x = u - left, y = v - top;
     return depth_mm.Contains(x, y) ? 1e-3f * static_cast<float>(depth_mm(x, y)) : 0.0f;
   }
@@ -40,7 +40,7 @@ struct WholeDepth {
   }
 };
 
-// A point before the camera, as features see it.
+// A point in front of the camera, with its projection, as features need it.
 struct FeaturePoint {
   FeaturePoint(const PinholeCamera& camera, const Vector3f& point)
       : z(std::max(point.z(), kNearest_m)),
@@ -67,7 +67,7 @@ struct DepthFeature {
   }
 
  private:
-  // Against the point's own, metres.
+  // Relative to the point's depth, metres.
   template <class View>
   static float Depth(const View& view, const FeaturePoint& point, float dx, float dy) {
     const float z = view.At(static_cast<int>(std::lround(point.u + point.columns_per_m * dx)),

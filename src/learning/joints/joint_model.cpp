@@ -14,7 +14,7 @@ using Votes = std::array<std::vector<WeightedPlace>, kBodyPointCount>;
 
 constexpr std::size_t kStarts = 8;  // votes from which the densest place is looked for
 
-// A Gaussian kernel of the given bandwidth, summed over votes; `shifted` is where it leads.
+// Density of votes with a Gaussian kernel; `shifted` is the mean-shift update of the position.
 float Density(const std::vector<WeightedPlace>& votes, const Vector3f& place, float bandwidth_m,
               Vector3f& shifted) {
   const float scale = -0.5f / (bandwidth_m * bandwidth_m);
@@ -57,13 +57,13 @@ std::optional<Vector3d> ModeOf(const std::vector<WeightedPlace>& votes,
 
 void VoteSettings::Describe(Fields& f) {
   f.Integer("stride_px", stride_px,
-            {.meaning = "pixels of every how many columns and rows vote for joints",
+            {.meaning = "stride in columns and rows of the pixels that vote for joints",
              .unit = "px",
              .min = 1,
              .max = 16,
              .origin = Origin::kGuessed});
   f.Number("deviation_m", deviation_m,
-           {.meaning = "a vote weighs 1 / (this² + its leaf's deviation²)²",
+           {.meaning = "a vote's weight is 1 / (deviation_m² + its leaf's deviation²)²",
             .unit = "m",
             .min = 1e-3,
             .max = 1.0,
@@ -76,7 +76,7 @@ void VoteSettings::Describe(Fields& f) {
             .origin = Origin::kGuessed,
             .source = "Shotton et al. 2011: for each joint by a grid search"});
   f.Integer("shifts", shifts,
-            {.meaning = "steps of the mean shift over votes at most",
+            {.meaning = "maximum number of mean shift steps over votes",
              .min = 0,
              .max = 1000,
              .origin = Origin::kGuessed});

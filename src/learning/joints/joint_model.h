@@ -1,11 +1,11 @@
 // A detector of joints in one depth image: pixels vote through a forest
 // (learning/joints/voting_tree.h).
 //
-// After Girshick, Shotton, Kohli, Criminisi & Fitzgibbon, ICCV 2011: every pixel of a grid comes to
-// a leaf of each tree and votes for the points that the leaf knows; a point is the mode of its
-// votes by mean shift. Departures: a leaf votes for a fixed number of points, its best, and a vote
-// weighs what its leaf's deviation and the pixel's area are worth. No frame knows of the one
-// before.
+// After Girshick, Shotton, Kohli, Criminisi & Fitzgibbon, ICCV 2011: every pixel of a grid reaches
+// a leaf of each tree and votes for the points stored there; a point is the mode of its votes,
+// found by mean shift. Departures: a leaf votes for a fixed number of points, its best ones, and a
+// vote's weight depends on its leaf's deviation and the pixel's area. Frames are independent of
+// each other.
 #pragma once
 
 #include <filesystem>
@@ -33,7 +33,7 @@ struct VoteSettings {
   void Describe(Fields& fields);
 };
 
-// Each point where it was found, camera frame, metres; nothing where no pixel votes for it.
+// The detected points, camera frame, metres; nothing for a point without votes.
 using DetectedPoints = std::array<std::optional<Vector3d>, kBodyPointCount>;
 
 class JointDetector {
@@ -42,7 +42,7 @@ class JointDetector {
   JointDetector(const JointModel& model, const VoteSettings& settings)
       : model_(model), settings_(settings) {}
 
-  // The image shows the person alone.
+  // The image must show the person alone.
   DetectedPoints Detect(const DepthImage& depth, const PinholeCamera& camera,
                         double max_depth_m) const;
 

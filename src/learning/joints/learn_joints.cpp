@@ -31,13 +31,13 @@ std::vector<TrainingPixel> DrawPixels(const std::vector<JointExample>& examples,
 
 void TreeSettings::Describe(Fields& f) {
   f.Integer("depth", depth,
-            {.meaning = "splits from a tree's root to a leaf at most",
+            {.meaning = "maximum number of splits from a tree's root to a leaf",
              .min = 1,
              .max = 30,
              .origin = Origin::kGuessed,
              .source = "Shotton et al. 2011: 20, with a hundred times the images"});
   f.Integer("least_pixels", least_pixels,
-            {.meaning = "training pixels in a leaf at least",
+            {.meaning = "minimum number of training pixels in a leaf",
              .min = 1,
              .max = 100000,
              .origin = Origin::kGuessed});
@@ -48,12 +48,12 @@ void TreeSettings::Describe(Fields& f) {
              .origin = Origin::kGuessed,
              .source = "Shotton et al. 2011: 2000"});
   f.Integer("split_pixels", split_pixels,
-            {.meaning = "training pixels that a split's features are tried on at most",
+            {.meaning = "maximum number of training pixels on which a split's features are tested",
              .min = 10,
              .max = 10000000,
              .origin = Origin::kGuessed});
   f.Number("reach_m", reach_m,
-           {.meaning = "how far from a pixel features look at most",
+           {.meaning = "maximum distance of a feature's offset from its pixel",
             .unit = "m",
             .min = 0.01,
             .max = 3.0,

@@ -8,7 +8,7 @@
 
 namespace vitruvia::joints {
 
-// A pixel, and the bone that moves the surface that it shows.
+// A pixel and the bone of the surface that it shows.
 struct LabelledPixel {
   std::uint16_t u, v;
   std::uint8_t bone;
@@ -29,8 +29,8 @@ struct ForestSettings {
   void Describe(Fields& fields);
 };
 
-// All examples are of one camera. The same examples and settings give the same model for any number
-// of threads. DataError if no example has a labelled pixel with a measurement.
+// All examples must be of one camera. The model does not depend on the number of threads. DataError
+// if no example has a labelled pixel with a measurement.
 JointModel LearnJoints(const std::vector<JointExample>& examples, const PinholeCamera& camera,
                        const ForestSettings& settings, int threads);
 

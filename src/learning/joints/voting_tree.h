@@ -1,7 +1,9 @@
-// A decision tree over depth features: from a pixel on a body to votes for where joints are.
+// A decision tree over depth features that maps a pixel on a body to votes for the positions of
+// joints.
 //
-// Its splits tell apart the body parts that pixels show (Shotton et al. 2011); its leaves hold the
-// mean offsets of the points that its training pixels agree on best (Girshick et al. 2011).
+// Its splits separate the body parts that pixels show (Shotton et al. 2011); its leaves hold the
+// mean offsets of the points with the least variance among the leaf's training pixels (Girshick et
+// al. 2011).
 #pragma once
 
 #include <array>
@@ -15,7 +17,7 @@
 
 namespace vitruvia::joints {
 
-// A pixel of a training image: the part that it shows, and where the points are.
+// A pixel of a training image: the part that it shows, and the true points.
 struct TrainingPixel {
   const CroppedDepth* depth;
   FeaturePoint place;
@@ -28,7 +30,7 @@ inline constexpr int kLeafVotes = 6;
 
 struct PointVote {
   std::int32_t point = -1;          // −1: no vote
-  float deviation_m = 0.0f;         // root mean square of what the training pixels differ by
+  float deviation_m = 0.0f;         // root mean square deviation of the training pixels' offsets
   std::array<float, 3> offset_m{};  // from the pixel's position to the point
 };
 
@@ -46,7 +48,7 @@ struct VotingTree {
   struct Node {
     DepthFeature feature;
     float threshold = 0.0f;
-    std::int32_t left = -1;  // the right one follows it; −1: a leaf
+    std::int32_t left = -1;  // index of the left child, followed by the right one; −1: a leaf
     std::int32_t leaf = -1;  // of a leaf
   };
   using Leaf = std::array<PointVote, kLeafVotes>;
@@ -65,8 +67,8 @@ struct VotingTree {
   }
 };
 
-// Each split is the one, of candidates drawn at random, that leaves the least entropy of the parts.
-// Reorders the pixels, of which there is one at least.
+// Each split is the one of randomly drawn candidates with the least entropy of the parts. Reorders
+// the pixels (at least one).
 VotingTree GrowTree(std::span<TrainingPixel> pixels, const TreeSettings& settings,
                     RandomStream& random);
 

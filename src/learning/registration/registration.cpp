@@ -55,12 +55,12 @@ void RegistrationSettings::Describe(Fields& f) {
             .origin = Origin::kGuessed,
             .source = "statures vary by 4 % among adults; children are outside of most spaces"});
   f.Choice("clothing", clothing, {{"none", Clothing::kNone}, {"loose", Clothing::kLoose}},
-           {.meaning = "what the person wears; loose: the body may lie inside of the surface at a "
+           {.meaning = "clothing of the person; loose: the body may lie inside the surface at a "
                        "lower cost than outside",
             .origin = Origin::kGuessed});
   search.Describe(f);
   f.Integer("surface_points", surface_points,
-            {.meaning = "points, evenly spread, that stand for a surface",
+            {.meaning = "number of evenly spread points by which a surface is sampled",
              .min = 500,
              .max = 1000000,
              .origin = Origin::kGuessed});
@@ -104,8 +104,8 @@ Eigen::VectorXd Registrar::ScaledShape(double scale) const {
   return theta;
 }
 
-// What is expected of the person; if the height is not known, scaled so that the posed body is as
-// high as what is seen.
+// The expected shape; if the height is not known, it is scaled so that the posed body has the
+// height of the measurements.
 Eigen::VectorXd Registrar::StartShape(const PoseHypothesis& hypothesis, double height_m) const {
   if (known_.height_m) return ScaledShape(expected_.scale);
   BodyState state = hypothesis.state;

@@ -1,9 +1,9 @@
-// Registration: the body of a shape space put onto a surface of which neither pose nor size nor
-// direction is known.
+// Registration: fits the body of a shape space to a surface of unknown pose, size and heading.
 //
 // Start hypotheses (headings × poses of body/start_poses.h) are fitted coarse to fine
-// (fitting/pose_search.h); pose, place, the space's first coefficients and one uniform scale are
-// found together. The result says how sure it is, and what is no person is refused with numbers.
+// (fitting/pose_search.h); pose, position, the space's first coefficients and one uniform scale are
+// estimated together. The result has a margin of confidence; a surface that is not a person is
+// rejected with the distances.
 #pragma once
 
 #include <memory>
@@ -40,7 +40,7 @@ struct Registration {
   MutualDistance distance;  // of the fine body
   double margin = 0.0;      // see SearchOutcome
   std::string start;        // the hypothesis that won
-  std::string problem;      // "" for a person; otherwise why it is none, with numbers
+  std::string problem;      // "" for a person; otherwise why the surface is rejected, with numbers
 };
 
 class Registrar {
@@ -52,13 +52,13 @@ class Registrar {
 
   // Meshes need not be closed nor of one piece; y is up, metres. Vertices in the mesh's frame.
   Registration Find(const TriangleMesh& surface);
-  // In the camera's frame: y down. The frame's measurements are the person's.
+  // In the camera frame: y down. The frame must show the person alone.
   Registration Find(const DepthImage& depth, const PinholeCamera& camera);
-  // The same person in several frames (one or more): each found on its own, then one shape fitted
-  // to all of them.
+  // The same person in one or more frames: each frame is registered separately, then one shape is
+  // fitted to all of them.
   std::vector<Registration> FindSame(const std::vector<DepthImage>& frames,
                                      const PinholeCamera& camera);
-  // From a state that is near, for the next surface of a sequence: the shape stays.
+  // Tracks the next surface of a sequence from a nearby state; the shape is kept.
   Registration Follow(const TriangleMesh& surface, const BodyState& near);
 
   // The body of a shape in its rest pose, subject frame, on the space's own mesh.
@@ -72,14 +72,14 @@ class Registrar {
   std::vector<PoseHypothesis> Hypotheses(const Matrix3<double>& world_from_front,
                                          double height_m) const;
   Registration Judged(const SearchOutcome& found) const;
-  Eigen::VectorXd ScaledShape(double scale) const;  // what is expected of the person, scaled
+  Eigen::VectorXd ScaledShape(double scale) const;  // the expected shape, scaled
   Eigen::VectorXd StartShape(const PoseHypothesis& hypothesis, double height_m) const;
   void Judge(Registration& registration) const;
 
   const ShapeSpace& space_;
   RegistrationSettings settings_;
   KnownAttributes known_;
-  SizedShape expected_;  // of what is known
+  SizedShape expected_;  // of the known attributes
   ShapedBody fine_body_, coarse_body_;
   std::unique_ptr<PoseFit> fine_, coarse_;
 };

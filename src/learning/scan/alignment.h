@@ -1,4 +1,4 @@
-// Frame-to-model alignment: where the camera is, by point-to-plane ICP (KF, sec. 3.5).
+// Frame-to-model alignment: estimates the camera pose by point-to-plane ICP (KF, sec. 3.5).
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ namespace vitruvia {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-// The model as an earlier camera saw it; what frames are aligned with.
+// The model rendered in an earlier camera pose, with which frames are aligned.
 struct ModelView {
   PointMap surface;  // subject frame
   PinholeCamera camera;
@@ -29,7 +29,7 @@ struct PointToPlaneSystem {
   Vector6d b = Vector6d::Zero();
   double squared_error_m2 = 0.0;
   int matched = 0;
-  int tried = 0;  // points of the frame that project into the model's picture of itself
+  int tried = 0;  // points of the frame that project into the model's view
 
   void Add(const PointToPlaneSystem& other);
 };

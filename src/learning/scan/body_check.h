@@ -1,4 +1,4 @@
-// Whether a scanned surface is one whole body, from the facts about it alone.
+// Checks that a scanned surface is one complete body, from its components and holes.
 #pragma once
 
 #include "learning/scan/scan_surface.h"

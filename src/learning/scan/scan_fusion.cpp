@@ -13,7 +13,7 @@
 namespace vitruvia {
 namespace {
 
-constexpr double kShortEdge = 0.05;  // of a voxel: what is shorter makes slivers
+constexpr double kShortEdge = 0.05;  // share of a voxel: shorter edges give sliver triangles
 
 Vector3d MiddleOf(const VolumeSettings& volume) {
   Vector3d middle;

@@ -4,8 +4,8 @@
 //   for each frame: fusion.FuseFrame(depth);
 //   ScanSurface surface = fusion.Surface();
 //
-// The surface is in the subject frame as far as the first camera's place in it is known: a scan
-// fixes everything but that. Deterministic, and the same for any number of threads.
+// The surface is in the subject frame if subject_from_first_camera is correct: a scan determines
+// the surface only up to this transform. Deterministic for any number of threads.
 #pragma once
 
 #include <array>
@@ -42,8 +42,8 @@ class ScanFusion {
   ScanFusion(const ScanFusionSettings& settings, const PinholeCamera& camera,
              const Rigidd& subject_from_first_camera);
 
-  // A frame that is lost or empty changes nothing; whoever goes on after it does so at the last
-  // known pose. Throws std::invalid_argument if the image is not of the camera's size.
+  // A lost or empty frame changes nothing; the next frame starts from the last known pose. Throws
+  // std::invalid_argument if the image is not of the camera's size.
   FusedFrame FuseFrame(const DepthImage& depth);
 
   ScanSurface Surface() const;

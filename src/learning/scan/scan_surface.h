@@ -1,4 +1,4 @@
-// The scanned surface, taken out of a volume and cleaned, and the facts about it.
+// Extraction of the scanned surface from a volume, its cleaning, and its components and holes.
 #pragma once
 
 #include <vector>
@@ -21,7 +21,7 @@ struct SurfaceComponent {
 struct BoundaryLoop {
   double perimeter_m = 0.0;
   double area_m2 = 0.0;                // of the opening: the length of the loop's vector area
-  Vector3f center = Vector3f::Zero();  // mean of its edges' middles, weighted by length
+  Vector3f center = Vector3f::Zero();  // mean of its edges' midpoints, weighted by length
   int edges = 0;
 };
 

@@ -168,7 +168,7 @@ void LossSettings::Describe(Fields& f) {
             .source = "well above a depth camera's noise at 2 m"});
   f.Number("max_condition", max_condition,
            {.meaning = "the camera is lost when the condition number of the alignment's normal "
-                       "equations is larger: the view does not tell where it is",
+                       "equations is larger: the view does not determine its pose",
             .min = 1.0,
             .max = 1e12,
             .origin = Origin::kGuessed,
@@ -194,15 +194,14 @@ void LossSettings::Describe(Fields& f) {
 }
 
 void SurfaceSettings::Describe(Fields& f) {
-  f.Number(
-      "min_weight", min_weight,
-      {.meaning = "the surface lies between voxels of at least this weight; a frame counts the "
-                  "cosine at which it sees the surface, per metre of distance, and "
-                  "frames that are skipped count, too",
-       .min = 0.0,
-       .max = 1e6,
-       .origin = Origin::kGuessed,
-       .source = "a few frames: flying pixels have less"});
+  f.Number("min_weight", min_weight,
+           {.meaning = "the surface is extracted between voxels of at least this weight; a frame "
+                       "adds the cosine between surface normal and ray per metre of distance, "
+                       "multiplied by the stride of the frames",
+            .min = 0.0,
+            .max = 1e6,
+            .origin = Origin::kGuessed,
+            .source = "a few frames: flying pixels have less"});
   f.Number("island_share", island_share,
            {.meaning = "pieces with less than this share of the largest piece's area are dropped",
             .min = 0.0,
@@ -215,7 +214,7 @@ void ScanFusionSettings::Describe(Fields& f) {
   f.Section("volume", volume, {.meaning = "the volume of signed distances"});
   f.Section("smoothing", smoothing, {.meaning = "bilateral filter of the depth before alignment"});
   f.Section("alignment", alignment, {.meaning = "alignment of each frame with the model by ICP"});
-  f.Section("loss", loss, {.meaning = "when the camera counts as lost"});
+  f.Section("loss", loss, {.meaning = "conditions under which the camera counts as lost"});
   f.Section("surface", surface, {.meaning = "how the surface is extracted and cleaned"});
   f.Integer("stride", stride,
             {.meaning = "use every n-th frame and skip the others",

@@ -1,4 +1,4 @@
-// Settings of scan fusion: how depth frames of a moving camera become one surface.
+// Settings of scan fusion: the fusion of a moving camera's depth frames to one surface.
 //
 // After KinectFusion (Newcombe et al., ISMAR 2011), called KF below.
 #pragma once
@@ -42,7 +42,7 @@ struct AlignmentSettings {
   std::string Problem() const;
 };
 
-// When the camera counts as lost.
+// Conditions under which the camera counts as lost.
 struct LossSettings {
   double min_matched_share = 0.4;
   double max_rms_m = 0.015;

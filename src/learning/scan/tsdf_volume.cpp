@@ -10,9 +10,9 @@ namespace vitruvia {
 namespace {
 
 constexpr int kMaxBlocks = 200000;  // 100 million voxels: ten times what a body needs at 3 mm
-// Behind the surface a voxel's weight falls to nothing, so that the far side of a hand is not taken
-// for its near side's inside; up to this share of the truncation it does not, as noise would
-// otherwise count more on one side of the surface than on the other.
+// Behind the surface a voxel's weight decreases to zero, so that the far side of a thin part (a
+// hand) is not overwritten by its near side. Up to this share of the truncation the weight is
+// constant; otherwise noise would have different weights on the two sides of the surface.
 constexpr float kFullWeightBehind = 0.5f;
 
 constexpr int kSide = TsdfVolume::kBlockSide, kSideBits = TsdfVolume::kBlockBits;
@@ -111,7 +111,7 @@ void TsdfVolume::MakeRoom(const PointMap& seen, const Rigidd& subject_from_camer
   cells_.resize(static_cast<std::size_t>(block_count()) * kBlockVoxels);
 }
 
-// What integration wants to know of each pixel.
+// Data of each pixel for integration.
 struct TsdfVolume::View {
   struct Pixel {
     float depth_m = 0.0f;
@@ -148,8 +148,8 @@ struct TsdfVolume::View {
         const float across = -seen.normals(u, v).dot(ray), ray_length = ray.norm();
         const float cosine = across / ray_length;
         if (cosine < static_cast<float>(settings.min_cosine) || cosine <= 0.0f) continue;
-        // KF, sec. 3.3: W ∝ cos θ / R. A ray that grazes a round body soon leaves it again, so that
-        // what it says of the space behind its pixel is cut short, too.
+        // KF, sec. 3.3: W ∝ cos θ / R. A ray at a grazing angle soon leaves a round body again, so
+        // the range behind its pixel is shortened too.
         pixels(u, v) = {z, across, cosine / (z * ray_length), cosine * cosine};
         float& far_z = farthest[static_cast<std::size_t>(v / kTile) * tile_columns + u / kTile];
         far_z = std::max(far_z, z);

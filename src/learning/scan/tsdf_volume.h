@@ -1,7 +1,7 @@
 // A truncated signed distance function, the average of many depth frames (Curless & Levoy 1996).
 //
-// A voxel is a sample at a point of a lattice. Only blocks of 8×8×8 voxels that come near to a seen
-// surface have memory, in contiguous arrays; a dense grid of block numbers finds them.
+// A voxel is a sample at a lattice point. Memory is allocated, in contiguous arrays, only for
+// blocks of 8×8×8 voxels near an observed surface; a dense grid of block numbers indexes them.
 //
 // Distances are positive outside the body, negative inside. Departure from KF: a frame's distance
 // is measured across the surface (the depth difference times the ray's component along the pixel's
@@ -27,8 +27,9 @@ class TsdfVolume {
 
   explicit TsdfVolume(const VolumeSettings& settings);
 
-  // Averages a frame in. `seen` are the frame's points (camera frame) and normals; pixels without a
-  // normal are left out. RunError if the surface seen so far needs more blocks than a body can.
+  // Averages a frame into the volume. `seen` holds the frame's points (camera frame) and normals;
+  // pixels without a normal are left out. RunError if the observed surface needs more blocks than a
+  // body can.
   void Integrate(const DepthImage& depth, const PointMap& seen, const PinholeCamera& camera,
                  const Rigidd& subject_from_camera, WorkerTeam& team);
 
@@ -65,7 +66,7 @@ class TsdfVolume {
     float z, distance_m;
   };
 
-  // Into cells_; -1: no memory.
+  // Index into cells_; -1: not allocated.
   std::int64_t IndexOf(int x, int y, int z) const {
     const int bx = x >> kBlockBits, by = y >> kBlockBits, bz = z >> kBlockBits;
     if (bx < 0 || by < 0 || bz < 0 || bx >= blocks_[0] || by >= blocks_[1] || bz >= blocks_[2]) {
@@ -93,7 +94,7 @@ class TsdfVolume {
   float voxel_m_, truncation_m_;
   Vector3f low_;
   std::array<int, 3> blocks_;                // of the dense grid
-  std::vector<std::int32_t> block_numbers_;  // dense; -1: no memory
+  std::vector<std::int32_t> block_numbers_;  // dense; -1: not allocated
   std::vector<Lattice> block_corners_;
   struct Cell {
     float distance = 1.0f;  // in units of the truncation

@@ -1,16 +1,17 @@
-// Height, weight and sex held while the shape changes (paper A, sec. 5, after Guan et al. 2009).
+// The subspace of shapes with given height, weight and sex (paper A, sec. 5, after Guan et al.
+// 2009).
 //
 // The attributes' directions are learnt by regression on the database's people. Moving along them
-// reaches given attributes; moving in the subspace orthogonal to them keeps them as far as they are
-// linear. Height and weight are then corrected along their directions until those measured on the
-// surface are right, since volume is not linear in the shape.
+// reaches given attributes; moving in the subspace orthogonal to them keeps the regressed
+// attributes. Because volume is not linear in the shape, height and weight are then corrected along
+// their directions until the values measured on the surface are the given ones.
 #pragma once
 
 #include "learning/shape/shape_space.h"
 
 namespace vitruvia {
 
-// Height (m) and weight (kg) of a shape as they are measured on its surface.
+// Height (m) and weight (kg) of a shape, measured on its surface.
 Eigen::Vector2d MeasuredAttributes(const ShapeSpace& space, const Eigen::VectorXd& theta, Sex sex);
 
 class AttributeSubspace {
@@ -29,7 +30,7 @@ class AttributeSubspace {
 
  private:
   const ShapeSpace& space_;
-  Eigen::MatrixXd directions_;  // K × 3: the least step for one unit of each attribute
+  Eigen::MatrixXd directions_;  // K × 3: the shortest step for one unit of each attribute
   Eigen::MatrixXd orthogonal_;
 };
 

@@ -1,11 +1,11 @@
-// A body database: many people's surfaces in one topology, with what is known of each person.
+// A body database: many people's surfaces in one topology, with each person's attributes and
+// skeleton.
 //
 // On disk, a folder:
 //   database.json   format, version, subjects (name, height, weight, sex, joints, tips), provenance
 //   vertices.bin    float32 [subjects][vertices][3], T-pose, subject frame, metres, little-endian
-//   reference/      a body (body/body_model.h) of the database's topology; its weights are the
-//   rig's poses/NAME.bin  optional, float32 [poses][vertices][3]: examples of subject NAME in other
-//   poses
+//   reference/      a body (body/body_model.h) of the database's topology, with the rig's weights
+//   poses/NAME.bin  optional, float32 [poses][vertices][3]: subject NAME in other poses
 #pragma once
 
 #include <filesystem>
@@ -42,7 +42,7 @@ struct BodyDatabase {
 std::size_t MostAverage(const std::vector<DatabaseSubject>& subjects);
 
 // DataError naming the subject: fewer than two subjects, another number of vertices than the
-// reference, vertices that are not finite, a name that stands twice.
+// reference, vertices that are not finite, a duplicate name.
 void CheckBodyDatabase(const BodyDatabase& database, const std::string& where);
 
 void WriteBodyDatabase(const std::filesystem::path& folder, const BodyDatabase& database);

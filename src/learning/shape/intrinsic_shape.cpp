@@ -103,8 +103,8 @@ class Fit {
   }
   bool AtLastCutoff(int iteration) const { return 2 * iteration >= settings_.max_iterations; }
 
-  // Both ways. Planes are the scan's where the body looks for it, the body's where it is looked
-  // for.
+  // Finds pairs in both directions: body vertices with the scan's planes, and scan points with the
+  // body's planes.
   void FindPairs(double cutoff_m) {
     const std::vector<Vector3f>& vertices = posed_.vertices();
     ComputeVertexNormals(vertices, tracking_.reference.rest.triangles, normals_);
@@ -193,7 +193,7 @@ class Fit {
     return MeanMovement();
   }
 
-  // Puts height and weight right again; E_ap counts from where the attributes are met.
+  // Corrects height and weight; E_ap is measured from the shape that meets the attributes.
   void Recenter() {
     const Eigen::VectorXd before = parameters_.theta;
     parameters_.theta = subspace_.Corrected(before, attributes_);

@@ -1,11 +1,11 @@
-// Intrinsic shape (paper A, sec. 5, eq. 6): the person of a scan, within the space of shapes.
+// Intrinsic shape (paper A, sec. 5, eq. 6): fits the shape space to a scan of a person.
 //
 // min over θ of E_ap + λ₁ E_diff. E_diff is the bidirectional distance of surface and scan, point
-// to plane, in units of `length_unit_m`; pairs farther apart than a cutoff that shrinks, or whose
-// normals disagree, do not count, so holes of the scan pull at nothing. E_ap is ‖θ‖² (θ in standard
+// to plane, in units of `length_unit_m`; pairs farther apart than a shrinking cutoff, or whose
+// normals disagree, are rejected, so holes of the scan have no effect. E_ap is ‖θ‖² (θ in standard
 // deviations) over the subspace that leaves height, weight and sex as given. Departures from the
-// paper: the T-pose of a scan is never perfect, so every joint may turn a little, held by a prior;
-// height and weight are held as measured on the surface. Solved by Gauss–Newton with analytic
+// paper: the T-pose of a scan is never perfect, so every joint may rotate slightly, under a prior;
+// height and weight are those measured on the surface. Solved by Gauss–Newton with analytic
 // derivatives.
 #pragma once
 
@@ -33,7 +33,7 @@ struct IntrinsicShapeSettings {
   double robust_m = 0.01;        // residual at which a pair's weight falls to a quarter
   double pose_slack_deg = 5.0;   // standard deviation of every joint's rotation
   double stop_m = 2e-5;          // mean movement of the surface at which the fit ends
-  int scan_points = 12000;       // of the scan that look for the body
+  int scan_points = 12000;       // number of the scan's points that are paired to the body
   double least_coverage = 0.35;  // of each bone's surface by the scan
   double most_unusual = 5.0;     // attributes' standard deviations from the database's mean
   AttributeUse attributes = AttributeUse::kHeld;
@@ -42,15 +42,14 @@ struct IntrinsicShapeSettings {
   std::string Problem() const;
 };
 
-// A scan as the fit takes it: points with outward normals, in a frame whose y is up, the person
-// facing +z.
+// Input of the fit: points with outward normals, in a frame with y up and the person facing +z.
 using ScannedSurface = OrientedPoints;
 ScannedSurface SurfaceOf(const TriangleMesh& scan);
 
 struct IntrinsicShape {
   Eigen::VectorXd theta;
   PosedShape::Parameters pose;    // scan frame
-  std::vector<Vector3f> in_scan;  // the fitted surface as the scan holds it, tracking mesh
+  std::vector<Vector3f> in_scan;  // the fitted surface in the scan's pose, tracking mesh
   int iterations = 0;
   bool converged = false;
   double body_to_scan_mean_m = 0.0;  // point to plane, over pairs
@@ -58,9 +57,9 @@ struct IntrinsicShape {
   std::array<double, kBoneCount> coverage{};  // share of each bone's vertices with a partner
 };
 
-// `tracking` is the space restricted to fewer vertices, which look for the scan; attributes are
-// measured on all. DataError if the scan covers too little of a bone or is not this tall;
-// ConfigError if the attributes are beyond the database.
+// `tracking` is the space restricted to the fewer vertices that are paired to the scan; attributes
+// are measured on all vertices. DataError if the scan covers too little of a bone or does not have
+// the given height; ConfigError if the attributes are beyond the database.
 IntrinsicShape FitIntrinsicShape(const ShapeSpace& space, const ShapeSpace& tracking,
                                  const ScannedSurface& scan, const BodyAttributes& attributes,
                                  const IntrinsicShapeSettings& settings);

@@ -1,10 +1,10 @@
-// How a body's triangles deform with its pose (SCAPE: Anguelov et al. 2005, sec. 4; the Q of paper
-// A, eq. 1), learnt by regression from examples of people in many poses.
+// Pose-dependent deformation of a body's triangles (SCAPE: Anguelov et al. 2005, sec. 4; the Q of
+// paper A, eq. 1), learnt by regression from examples of people in many poses.
 //
-// Every triangle belongs to one part, the bone that moves it most, and looks at the two joints of
-// that part nearest to it. Its deformation beyond the part's rotation is linear in the joints'
-// rotation vectors: Q = C_0 + Σ_{c, i} Δr_c,i C_c,i, each C a 3 × 3 matrix in the axes of the rest
-// pose. Δr_c = Log(R_parentᵀ R_bone).
+// Every triangle belongs to one part, the bone with the largest weight, and depends on the two
+// joints of that part nearest to it. Its deformation beyond the part's rotation is linear in the
+// joints' rotation vectors: Q = C_0 + Σ_{c, i} Δr_c,i C_c,i, each C a 3 × 3 matrix in the axes of
+// the rest pose. Δr_c = Log(R_parentᵀ R_bone).
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace vitruvia {
 
-inline constexpr int kRegressionJoints = 2;                    // that a triangle looks at
+inline constexpr int kRegressionJoints = 2;                    // that a triangle depends on
 inline constexpr int kRegressors = 1 + 3 * kRegressionJoints;  // constant first
 
 struct PoseRegressionSettings {
@@ -30,7 +30,7 @@ struct PoseRegressionSettings {
 // The deformations of one triangle.
 struct TrianglePoseModel {
   int bone = 0;                                   // its part
-  std::array<int, kRegressionJoints> joints{};    // by the bones that they carry; −1: none
+  std::array<int, kRegressionJoints> joints{};    // as indices of their bones; −1: none
   Vector3f place = Vector3f::Zero();              // of its centroid, see PlaceOnBone
   std::array<Matrix3<float>, kRegressors> terms;  // C_0, then three for each joint
 
@@ -45,12 +45,12 @@ struct PoseRegression {
   std::vector<TrianglePoseModel> triangles;  // of the mesh that was learnt on
 };
 
-// The rotation vector of each bone against its parent; zero for the pelvis.
+// The rotation vector of each bone relative to its parent; zero for the pelvis.
 std::array<Vector3d, kBoneCount> JointRotationVectors(
     const std::array<Matrix3<double>, kBoneCount>& rotations);
 
-// Where a point is on a bone, alike for people of all sizes: relative to its joint, in units of its
-// length.
+// Normalised position of a point on a bone, comparable between people of different sizes: relative
+// to the bone's joint, in units of its length.
 Vector3f PlaceOnBone(const Skeleton& skeleton, int bone, const Vector3f& point);
 
 // The bone of each triangle: of the largest summed weight of its corners.
@@ -70,8 +70,8 @@ std::array<Matrix3<double>, kBoneCount> PartRotations(const std::vector<Triangle
                                                       const std::vector<Vector3f>& posed);
 
 // The triangles' Q in a pose: min Σ_k Σ_j |R Q_k ê_kj − e_kj|² + smoothness · ē² Σ_{k~l} |Q_k −
-// Q_l|² over neighbours of one part, ē² the mean squared edge length. Edges leave Q free along a
-// triangle's normal; its neighbours decide there.
+// Q_l|² over neighbours of one part, ē² the mean squared edge length. A triangle's edges do not
+// determine Q along its normal; there the smoothness term does.
 class PoseDeformations {
  public:
   PoseDeformations(const std::vector<Triangle>& triangles, const std::vector<int>& bones,
@@ -86,13 +86,14 @@ class PoseDeformations {
   std::unique_ptr<Factorization> factorization_;
 };
 
-// From people whose rest surfaces share the reference's triangles.
+// The people's surfaces must have the reference's triangles.
 PoseRegression LearnPoseRegression(const BodyModel& reference,
                                    const std::vector<PosedPerson>& people,
                                    const PoseRegressionSettings& settings);
 
-// The model of another mesh: each triangle takes that of the learnt triangle of its bone whose
-// place on the bone is nearest. DataError if a bone of the mesh has no triangle in the model.
+// Transfers the model to another mesh: each triangle takes the model of the learnt triangle of the
+// same bone with the nearest PlaceOnBone. DataError if a bone of the mesh has no triangle in the
+// model.
 PoseRegression OnMesh(const PoseRegression& regression, const BodyModel& body);
 
 // On disk, a folder: regression.json and triangles.bin. DataError naming what is damaged.

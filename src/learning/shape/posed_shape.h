@@ -1,4 +1,5 @@
-// A shape of the space in a pose near the T-pose, and how its surface moves with every parameter.
+// A shape of the space in a pose near the T-pose, and the derivatives of its surface with respect
+// to all parameters.
 //
 // x_i = Σ_j w_ij (R_j (v̄_i(θ) − c_j(θ)) + p_j), where c_j are the joints regressed from θ, p_j the
 // posed joints down the chain: p_j = p_parent + R_parent (c_j − c_parent), p_pelvis a parameter.
@@ -16,14 +17,14 @@ class PosedShape {
     Vector3d pelvis_position = Vector3d::Zero();              // scan frame
   };
 
-  // The space must outlive this. `components`: how many coefficients θ has.
+  // The space must outlive this. `components`: number of coefficients of θ.
   PosedShape(const ShapeSpace& space, int components);
 
   // θ, then the pelvis' position, then a rotation vector for each bone.
   int parameter_count() const { return components_ + 3 + 3 * kBoneCount; }
   int rotation_index(int bone) const { return components_ + 3 + 3 * bone; }
 
-  // The mean shape in the T-pose, its pelvis where the space's centred frame has it.
+  // The mean shape in the T-pose, with the pelvis at its position in the space's centred frame.
   Parameters Start() const;
 
   // Moves the parameters by a step: θ and position add up; bone b and all below it turn by the

@@ -55,7 +55,8 @@ ScapeMesh::ScapeMesh(const TriangleMesh& rest) : factorization_(std::make_unique
                      {{t[0], t[0], 1.0}, {end, end, 1.0}, {t[0], end, -1.0}, {end, t[0], -1.0}});
     }
   }
-  // Edges do not say where the surface is: one vertex is held, and the mean moved afterwards.
+  // Edges do not determine the surface's position: one vertex is fixed, and the mean is moved
+  // afterwards.
   entries.emplace_back(0, 0, 1.0);
   const auto n = static_cast<Eigen::Index>(f.vertex_count);
   Eigen::SparseMatrix<double> matrix(n, n);

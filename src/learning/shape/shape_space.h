@@ -1,7 +1,7 @@
 // The space of body shapes (paper A, sec. 4: Θ = U θ + μ), learnt from a body database.
 //
-// Both forms end as one linear model of vertices, for SCAPE's mesh solve is linear in Θ when nobody
-// moves (Q = I): v = mean + basis · θ, with θ in standard deviations of the database's people.
+// Both forms result in a linear model of vertices, because SCAPE's mesh solve is linear in Θ in the
+// rest pose (Q = I): v = mean + basis · θ, with θ in standard deviations of the database's people.
 // Surfaces are centred: the mean of a body's vertices is the origin until PlacedBody() sets its
 // feet on the floor.
 #pragma once
@@ -35,7 +35,7 @@ struct ShapeSpace {
   Eigen::MatrixXf basis;            // 3V × K, metres per standard deviation
   Eigen::VectorXd joint_mean;       // 6 × 17: joints, then tips, relative to the vertices' mean
   Eigen::MatrixXd joint_basis;      // 102 × K, by regression
-  Eigen::Vector3d place_mean;       // where the vertices' mean is in the subject frame, metres
+  Eigen::Vector3d place_mean;       // position of the vertices' mean in the subject frame, metres
   Eigen::MatrixXd place_basis;      // 3 × K, by regression
   Eigen::Vector3d attribute_mean;   // see AttributeVector
   Eigen::MatrixXd attribute_basis;  // 3 × K, by regression: the attributes' directions
@@ -44,21 +44,21 @@ struct ShapeSpace {
   int components() const { return static_cast<int>(basis.cols()); }
 };
 
-// The space of the given subjects of a database (indices). DataError if they are fewer than two or
-// than the components ask for.
+// The space of the given subjects of a database (indices). DataError if there are fewer than two
+// subjects or too few for the components.
 ShapeSpace LearnShapeSpace(const BodyDatabase& database, const std::vector<int>& subjects,
                            const ShapeSpaceSettings& settings);
 
 // The surface of coefficients θ (up to K of them), centred.
 std::vector<Vector3f> Shape(const ShapeSpace& space, const Eigen::VectorXd& theta);
 
-// The body of coefficients θ: surface with feet on y = 0, front to back where the database's people
-// stand in their subject frames, regressed joints, and the attributes of
-// its surface (weight by the sex's density).
+// The body of coefficients θ: its surface with the feet on y = 0 and z as for the database's people
+// in their subject frames, regressed joints, and the attributes measured on its surface (weight
+// from the sex's density).
 BodyModel PlacedBody(const ShapeSpace& space, const Eigen::VectorXd& theta, Sex sex);
 
-// How well the first k components represent people that were not learnt from: each subject's
-// best coefficients in the least-squares sense, and what is left.
+// Error of the first k components on held-out people, with each subject's least-squares
+// coefficients.
 struct HeldOutError {
   int components = 0;
   double mean_m = 0.0;  // over vertices and subjects

@@ -1,5 +1,5 @@
-// The body of a person of whom no more is known than some of height, weight and sex: the most
-// probable shape of the space, scaled where the space has nobody of that size.
+// The body of a person of whom only some of height, weight and sex are known: the most probable
+// shape of the space, scaled if the space does not contain that size.
 #pragma once
 
 #include <optional>
@@ -19,14 +19,14 @@ struct SizedShape {
   double scale = 1.0;
 };
 
-// Of the first `components` coefficients the least ones (in standard deviations) whose regressed
-// attributes are the known ones, shrunk to `most_unusual` deviations if they are more. Then the
-// scale gives the known height as measured on the surface, and θ is corrected until a known weight
-// is reached within `most_unusual`. Without any attribute: the mean.
+// The first `components` coefficients of least norm (in standard deviations) whose regressed
+// attributes are the known ones, shrunk to `most_unusual` standard deviations if they exceed it.
+// Then the scale is set so that the height measured on the surface is the known one, and θ is
+// corrected to reach a known weight within `most_unusual`. Without any attribute: the mean.
 SizedShape ShapeOfSize(const ShapeSpace& space, const KnownAttributes& known, int components,
                        double most_unusual);
 
-// PlacedBody(), scaled; without a known sex with a man's density.
+// PlacedBody(), scaled; with a man's density if the sex is not known.
 BodyModel SizedBody(const ShapeSpace& space, const SizedShape& shape, std::optional<Sex> sex);
 
 }  // namespace vitruvia

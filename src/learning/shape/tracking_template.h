@@ -1,5 +1,5 @@
-// From the learning mesh to the mesh that is tracked, and back (paper A, sec. 6.2: 12,500 vertices
-// learn, 6,252 are tracked).
+// Maps between the learning mesh and the tracking mesh (paper A, sec. 6.2: 12,500 vertices for
+// learning, 6,252 for tracking).
 #pragma once
 
 #include "geometry/surface_map.h"
@@ -8,7 +8,7 @@
 namespace vitruvia {
 
 struct TrackingTemplate {
-  // The learning mesh's vertices that stay, ascending: shape and weights carry over as they are.
+  // The kept vertices of the learning mesh, ascending: their shape and weights are copied.
   std::vector<int> kept;
   std::vector<Triangle> triangles;  // over the kept ones
   // Where each vertex of the learning mesh lies on the tracking mesh.
@@ -21,7 +21,7 @@ inline constexpr int kTrackingVertices = 6252;  // paper A, sec. 6.2
 TrackingTemplate MakeTrackingTemplate(const TriangleMesh& learning_mesh,
                                       int target_vertices = kTrackingVertices);
 
-// To the tracking mesh: a selection, hence exact.
+// To the tracking mesh: exact, because its vertices are a subset.
 BodyModel OnTrackingMesh(const BodyModel& learning_body, const TrackingTemplate& tracking);
 ShapeSpace OnTrackingMesh(const ShapeSpace& space, const TrackingTemplate& tracking);
 

@@ -15,8 +15,8 @@ void BonePattern::Analyse(const Eigen::MatrixXd& second) {
   Order(coupled);
 }
 
-// Always the bone that is coupled to the fewest left; those it is coupled to are coupled to each
-// other afterwards.
+// Minimum-degree ordering: eliminates the bone with the fewest remaining couplings, and couples its
+// neighbours to each other.
 void BonePattern::Order(const std::vector<char>& coupled) {
   const int n = bones();
   std::vector<char> graph = coupled;

@@ -1,4 +1,4 @@
-// Which bones share vertices, and a Cholesky decomposition that profits from how few do.
+// The sparsity pattern of bones that share vertices, and a Cholesky decomposition that exploits it.
 //
 // The decomposition works on blocks of 6 × 6. Eigen::SimplicialLLT with one symbolic analysis,
 // which works on single entries, takes 3 times as long to factor and 4 times as long to solve for
@@ -14,8 +14,8 @@ namespace vitruvia::skinning {
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-// The blocks of a symmetric matrix over bones that are not zero, and those that a decomposition
-// fills, when bones are eliminated in an order that fills few. Body-like trees fill hardly any.
+// The non-zero blocks of a symmetric matrix over bones, and the fill-in of its decomposition, with
+// bones eliminated in an order of little fill-in. Trees like a body's skeleton have hardly any.
 class BonePattern {
  public:
   explicit BonePattern(int bones);
@@ -26,7 +26,7 @@ class BonePattern {
   int bones() const { return static_cast<int>(bone_at_.size()); }
   int blocks() const { return blocks_; }
   int BoneAt(int place) const { return bone_at_[place]; }  // in the order of elimination
-  // Where the block of two places is stored, row ≥ column; -1 if it is zero.
+  // Index of the block of two places in the elimination order, row ≥ column; -1 if it is zero.
   int Slot(int row, int column) const { return slots_[row * bones() + column]; }
 
  private:

@@ -1,4 +1,4 @@
-// All bones in all poses, and what their fit needs to know of the vertices.
+// The transforms of all bones in all poses, and the moments of the vertices that their fit needs.
 #pragma once
 
 #include <Eigen/Core>

@@ -78,9 +78,9 @@ class Alternator {
     return Rmse(energy_);
   }
 
-  // Weights at the joint step's transforms, or at the last ones if that raises the energy; then
-  // transforms for these weights, and a joint step for the next time. False if neither lowers the
-  // energy: all is as it was.
+  // Solves for weights at the joint step's transforms, or at the last ones if that raises the
+  // energy; then for transforms at these weights, and for the next joint step. False, with
+  // everything unchanged, if neither lowers the energy.
   bool Alternate(Alternation& done) {
     const Stopwatch watch;
     kept_weights_ = weights_;
@@ -101,7 +101,7 @@ class Alternator {
     return true;
   }
 
-  // Transforms for these weights, as good as they get.
+  // Optimal transforms for these weights.
   void FitTransformsTo(const SkinWeights& weights) {
     for (int row = 0; row < packed_.vertex_count(); ++row) {
       weights_.bones[row] = weights.bones[packed_.VertexOfRow(row)];

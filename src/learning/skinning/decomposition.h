@@ -13,15 +13,16 @@
 namespace vitruvia::skinning {
 
 enum class Ending {
-  kConverged,         // an alternation gained less than asked for, or nothing that floats can tell
+  kConverged,         // an alternation reduced the error by less than the limit, or by less than
+                      // the precision of floats
   kAlternationLimit,  // all alternations were carried out
 };
 const char* Name(Ending ending);
 
 struct Alternation {
-  double rmse_m = 0.0;  // root mean square distance of a vertex from its place, at its end
+  double rmse_m = 0.0;  // root mean square distance of the vertices from their examples, at the end
   double time_ms = 0.0;
-  bool jointly = false;  // it went out from a joint step (joint_step.h), and was the better for it
+  bool jointly = false;  // it started from a joint step (joint_step.h), which improved the result
 };
 
 struct Decomposition {
@@ -34,12 +35,12 @@ struct Decomposition {
 };
 
 // Starts from rigid pieces, one per bone, as `labels` says (V). `candidates` are the bones that a
-// vertex of each label may follow, itself among them; its size is the number of bones. Misuse if
-// ExamplesProblem() or LabelsProblem() has a complaint.
+// vertex of each label may follow, itself among them; its size is the number of bones.
+// std::invalid_argument if ExamplesProblem() or LabelsProblem() reports a problem.
 Decomposition Decompose(const Examples& examples, const Labels& labels, const BoneGraph& candidates,
                         const Settings& settings);
 
-// The bones' transforms for weights that are given, those of another subject for instance.
+// The bones' transforms for given weights, for instance those of another subject.
 struct FittedTransforms {
   std::vector<BoneTransforms> poses;  // P × B, posed_from_rest
   double rmse_m = 0.0;

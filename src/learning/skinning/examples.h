@@ -1,4 +1,4 @@
-// What skinning weights are learnt from: one rest pose and the same surface in other poses.
+// Training data for skinning weights: one rest pose and the same surface in other poses.
 #pragma once
 
 #include <string>
@@ -13,7 +13,8 @@ struct Examples {
   std::vector<std::vector<Vector3f>> poses;  // P × V, metres, vertex by vertex as in `rest`
 };
 
-// "" if the examples can be learnt from, otherwise what is wrong with which pose and vertex.
+// "" if the examples are valid, otherwise a message that names the pose, the vertex and the
+// problem.
 std::string ExamplesProblem(const Examples& examples);
 
 }  // namespace vitruvia::skinning

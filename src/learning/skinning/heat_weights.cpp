@@ -123,13 +123,14 @@ void AddTriangle(const TriangleMesh& mesh, const Triangle& triangle,
 }  // namespace
 
 void HeatWeightSettings::Describe(Fields& f) {
-  f.Number("heat", heat,
-           {.meaning = "how strongly the nearest bone heats a vertex, times 1 over its squared "
-                       "distance",
-            .min = 1e-3,
-            .max = 1e3,
-            .origin = Origin::kPaper,
-            .source = "Baran & Popović 2007, sec. 4: c = 1; their scale of areas is not printed"});
+  f.Number(
+      "heat", heat,
+      {.meaning =
+           "heat transfer from the nearest bone to a vertex, as a factor on 1 / squared distance",
+       .min = 1e-3,
+       .max = 1e3,
+       .origin = Origin::kPaper,
+       .source = "Baran & Popović 2007, sec. 4: c = 1; their scale of areas is not printed"});
   f.Number("visible_angle_deg", visible_angle_deg,
            {.meaning = "a vertex sees a bone only within this angle of its inward normal",
             .unit = "deg",

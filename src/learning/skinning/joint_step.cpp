@@ -12,7 +12,8 @@ constexpr int kVertexChunks = 16;  // of vertices; sums are kept per chunk and a
 constexpr int kPosesPerRange = 8, kBonesPerRange = 8;  // that a thread takes at a time
 constexpr int kMostFree = kMaxInfluences - 1;
 
-// Weights whose effect on the places is smaller, relative to the places themselves, undo nothing.
+// Weights with a smaller relative effect on the vertices' places are treated as unable to
+// compensate a change.
 constexpr double kLeastEffect = 1e-9;
 // The steps are good enough when their residual has fallen by that much.
 constexpr double kTolerance = 1e-3;

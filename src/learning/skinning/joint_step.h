@@ -1,8 +1,8 @@
-// All bones in all poses together, with the weights following: what makes the alternation fast.
+// A step of all bones in all poses with the weights eliminated, which accelerates the alternation.
 //
-// An alternation alone creeps where weights and transforms trade against each other. Here the
-// weights are eliminated instead of held (variable projection): of the change J ξ of a vertex's
-// places under a step ξ of all transforms, the part that its free weights can undo does not count.
+// An alternation alone converges slowly if weights and transforms are strongly coupled. Here the
+// weights are eliminated instead of held constant (variable projection): the part of a vertex's
+// change J ξ under a step ξ of all transforms that its free weights can compensate does not count.
 // The normal matrix Σ Jᵀ (I − A (AᵀA)⁻¹ Aᵀ) J couples all poses, 6BP unknowns. It is never formed:
 // conjugate gradients need its products only, with the poses' own normal matrices as
 // preconditioner. A product does not read the examples. A vertex's share of it follows from the

@@ -1,4 +1,4 @@
-// One bone per vertex, which bones are neighbours, and which bones may move which vertex.
+// Labels (one bone per vertex), neighbouring bones, and the candidate bones of vertices.
 #pragma once
 
 #include <cstdint>
@@ -18,13 +18,13 @@ using BoneGraph = std::vector<std::vector<std::uint8_t>>;  // per bone its neigh
 std::string LabelsProblem(std::span<const std::uint8_t> labels, std::size_t vertex_count,
                           int bone_count);
 
-// "" if every label may follow its own bone and no bone that is not there.
+// "" if every label's candidates contain its own bone and only existing bones.
 std::string CandidatesProblem(const BoneGraph& candidates);
 
 Labels HeaviestBones(const SkinWeights& weights);
 
-// Bones are neighbours if an edge of the surface joins vertices of theirs. With `most_neighbours`
-// (≥ 1), each bone keeps only those it shares most edges with (paper A, sec. 4: at most 3).
+// Bones are neighbours if an edge of the surface connects vertices of both. Each bone keeps only
+// the `most_neighbours` (≥ 1) with which it shares most edges (paper A, sec. 4: at most 3).
 BoneGraph NeighboursOnSurface(std::span<const std::uint8_t> labels,
                               const std::vector<Triangle>& triangles, int bone_count,
                               int most_neighbours);
@@ -33,7 +33,8 @@ BoneGraph NeighboursOnSurface(std::span<const std::uint8_t> labels,
 // (≥ 1); among equally near ones those of lower index.
 BoneGraph BonesWithin(const BoneGraph& neighbours, int steps, int most);
 
-// The two together, as settings say: which bones a vertex of each label may follow.
+// Both functions combined, with the settings' parameters: the bones that a vertex of each label may
+// follow.
 BoneGraph CandidateBones(std::span<const std::uint8_t> labels,
                          const std::vector<Triangle>& triangles, int bone_count,
                          const Settings& settings);

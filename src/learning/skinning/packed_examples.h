@@ -1,4 +1,4 @@
-// Examples as the alternation reads them: one contiguous row of floats per vertex.
+// Examples in the memory layout of the alternation: one contiguous row of floats per vertex.
 //
 // Each pose, and the rest pose, is shifted to have its centroid at the origin: floats then resolve
 // a body in metres to 0.1 µm wherever it stands. Rows are sorted by label, so that neighbouring
@@ -15,7 +15,7 @@
 
 namespace vitruvia::skinning {
 
-inline constexpr int kLanes = 8;  // rows are padded with zeros to whole groups of so many floats
+inline constexpr int kLanes = 8;  // rows are padded with zeros to multiples of so many floats
 using Lanes = Eigen::Array<float, kLanes, 1>;
 
 // A point of the rest pose in homogeneous coordinates (x, y, z, 1).

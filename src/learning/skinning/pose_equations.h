@@ -1,5 +1,5 @@
-// One pose's transforms, linearised: each bone turns by a small rotation vector r about the origin
-// of its posed frame's axes and moves by t, R ← exp(r̂) R, T ← T + t.
+// Linearised transforms of one pose: each bone rotates by a small rotation vector r about the
+// origin of its frame, in the posed axes, and moves by t, R ← exp(r̂) R, T ← T + t.
 //
 // A step holds (r, t) of every bone, 6B numbers. A pose block is [R | T]ᵀ of all bones (4B × 3, one
 // pose of a BoneStack).
@@ -26,12 +26,13 @@ void Adjoint(const ConstPose& pose, const ConstPose& pull, MutableStep adjoint);
 // The pose after the step; rotations stay proper.
 void Move(const ConstPose& pose, const ConstStep& step, MutablePose moved);
 
-// The normal equations of the places Σ_j w_j (r_j × R_j v̄ + t_j) that a step adds to the vertices'.
+// The normal equations of the change Σ_j w_j (r_j × R_j v̄ + t_j) of the vertices in a step.
 class PoseEquations {
  public:
-  // Bones without vertices get the identity: they do not move.
+  // Bones without vertices get an identity block, so they do not move.
   void Linearise(const BonePattern& pattern, const Eigen::MatrixXd& second, const ConstPose& pose);
-  // With the diagonal raised by that share. False if that is not positive definite.
+  // Factorises with the diagonal scaled by 1 + damping. False if the matrix is not positive
+  // definite.
   bool Factor(const BonePattern& pattern, double damping);
   void SolveInPlace(const BonePattern& pattern, MutableStep step) const {
     cholesky_.SolveInPlace(pattern, step);

@@ -1,4 +1,4 @@
-// Where there is no rig: the pieces of a surface that move most nearly rigidly.
+// Segments a surface without a rig into nearly rigid pieces.
 #pragma once
 
 #include "learning/skinning/examples.h"
@@ -6,10 +6,10 @@
 
 namespace vitruvia::skinning {
 
-// Labels for `count` (1 … 256) pieces: from one piece on, the worst is split at its worst vertex,
-// and all vertices go over to the piece that moves them best, in turn (as Le & Deng 2012, sec. 4.1,
-// start). Deterministic; a piece may end up empty if fewer move differently. Misuse if
-// ExamplesProblem() has a complaint.
+// Labels for `count` (1 … 256) pieces: starting from one piece, the piece with the largest error is
+// split at its worst vertex, and then all vertices are reassigned to the piece that fits them best,
+// and so on (initialisation of Le & Deng 2012, sec. 4.1). Deterministic. A piece may be empty if
+// fewer pieces move differently. std::invalid_argument if ExamplesProblem() reports a problem.
 Labels FindRigidPieces(const Examples& examples, int count, int threads);
 
 }  // namespace vitruvia::skinning

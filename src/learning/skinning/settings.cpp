@@ -24,7 +24,8 @@ void Settings::Describe(Fields& f) {
              .origin = Origin::kTuned,
              .source = "paper A, sec. 4: 3; a chest has 4: abdomen, neck and two arms"});
   f.Integer("neighbour_steps", neighbour_steps,
-            {.meaning = "how many bones away from its own bone a vertex may be influenced",
+            {.meaning = "maximum number of steps, from neighbour to neighbour, from a vertex's own "
+                        "bone to a bone that influences it",
              .min = 0,
              .max = 16,
              .origin = Origin::kTuned,

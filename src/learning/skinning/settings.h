@@ -6,7 +6,8 @@
 namespace vitruvia::skinning {
 
 enum class TransformSolver {
-  kClosedForm,  // Le & Deng 2012: one bone after the other, each exactly, the others held
+  kClosedForm,  // Le & Deng 2012: one bone after the other, each solved exactly with the others
+                // fixed
   kLinearised,  // paper A: all bones of a pose together, rotations linearised
 };
 

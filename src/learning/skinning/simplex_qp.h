@@ -1,4 +1,4 @@
-// Weights of one vertex: the least squares over the simplex, with few of them non-zero.
+// Weights of one vertex: least squares over the simplex with a limited number of non-zero weights.
 #pragma once
 
 #include <array>
@@ -22,14 +22,14 @@ struct SimplexQp {
 
 using CandidateWeights = std::array<double, kMaxCandidates>;
 
-// The least value with only candidates of the bit set `allowed` non-zero (at least one), however
-// many. `w` is where the search starts: on the simplex and within `allowed`.
+// Minimises over weights that are non-zero only for candidates of the bit set `allowed` (at least
+// one), without a limit on their number. `w` is the start, on the simplex and within `allowed`.
 void MinimizeOnSimplex(const SimplexQp& qp, std::uint32_t allowed, CandidateWeights& w);
 
-// The least value with at most `most` non-zero weights: exact, by branch and bound over which
-// candidates are left out; the bound is the least value without the limit. `w` is where the search
-// starts, on the simplex; its value is never exceeded if it keeps the limit. Weights that cannot be
-// told apart within the problem's precision stay close to where they started.
+// Minimises over weights of which at most `most` are non-zero: exact, by branch and bound over the
+// candidates that are left out; the bound is the minimum without the limit. `w` is the start, on
+// the simplex; if it satisfies the limit, the result is never worse. Weights that the problem's
+// precision does not determine stay close to the start.
 void MinimizeSparseOnSimplex(const SimplexQp& qp, int most, CandidateWeights& w);
 
 }  // namespace vitruvia::skinning

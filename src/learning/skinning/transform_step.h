@@ -1,7 +1,8 @@
-// Half an alternation: better rigid transforms of all bones for given weights.
+// The transform half of an alternation: improves the rigid transforms of all bones for given
+// weights.
 //
-// Poses are independent of each other, and all that a pose's problem knows of the vertices lies in
-// the moments: the cost does not depend on the number of vertices.
+// Poses are independent of each other, and a pose's problem depends on the vertices only through
+// the moments, so the cost does not depend on the number of vertices.
 #pragma once
 
 #include <vector>

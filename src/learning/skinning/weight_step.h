@@ -1,4 +1,4 @@
-// Half an alternation: the best weights of every vertex for given bone transforms.
+// The weight half of an alternation: the optimal weights of every vertex for given bone transforms.
 #pragma once
 
 #include <cstdint>
@@ -46,7 +46,8 @@ class WeightStep {
   // 4B × stride, padded as the rows are.
   Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> stack_;
   Eigen::MatrixXd product_;             // stack · stackᵀ, 4B × 4B
-  std::vector<Eigen::Matrix4d> forms_;  // per two bones: the product of a vertex's two places
+  std::vector<Eigen::Matrix4d> forms_;  // for each pair of bones: quadratic form of the product of
+                                        // a vertex's two places
   std::vector<Chunk> chunks_;
 };
 

@@ -83,8 +83,9 @@ Capsule CapsuleOf(int bone, const Unknowns& x) {
           std::max(x[7], kLeastRadius_m)};
 }
 
-// Gauss–Newton on the squared distances, weakly held at the first guess: what no vertex shows, such
-// as the ends of a limb, stays there. The distance is a minimum over t, so t counts as fixed.
+// Gauss–Newton on the squared distances, with a weak prior on the first guess for parameters that
+// no vertex determines, such as the ends of a limb. Because the distance is a minimum over t, the
+// derivative treats t as fixed.
 Capsule Fitted(const Capsule& guess, const std::vector<SkinPoint>& points) {
   constexpr int kIterations = 20;
   constexpr double kHold = 0.02;  // of the points' weight

@@ -1,4 +1,4 @@
-// A tapered capsule: all points nearer to a segment than a radius that varies linearly along it.
+// A tapered capsule: all points within a radius of a segment; the radius varies linearly along it.
 #pragma once
 
 #include <vector>
@@ -23,7 +23,7 @@ struct CapsuleDistance {
 CapsuleDistance DistanceFrom(const Capsule& capsule, const Vector3d& x);
 
 // Capsules that together fit the body's surface in the rest pose, least squares over its vertices
-// by area: one for each bone; pelvis, abdomen and chest, which are wider than deep, get
+// by area: one for each bone, except that pelvis, abdomen and chest, which are wider than deep, get
 // `trunk_capsules` (≥ 1) side by side. DataError if a bone carries too little of the surface.
 std::vector<Capsule> FitCapsules(const BodyModel& body, int trunk_capsules);
 

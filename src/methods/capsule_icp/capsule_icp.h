@@ -1,9 +1,10 @@
 // Articulated ICP with capsules: the model of Wei, Zhang & Chai 2012 (cylinders measured for the
 // person, depth difference and silhouette) and of Ganapathi et al. 2012 (closest points, free
-// space), in one tracker. docs/baselines.md says what is read from the papers and what is ours.
+// space), in one tracker. docs/baselines.md lists what comes from the papers and what is added
+// here.
 //
-// Departures: the capsules are fitted to the subject's mesh; angles are anatomical and their limits
-// bounds; no detector of body parts.
+// Departures: the capsules are fitted to the subject's mesh; the pose is parametrised by anatomical
+// angles with their limits as bounds; there is no detector of body parts.
 #pragma once
 
 #include "articulated/articulated_tracker.h"

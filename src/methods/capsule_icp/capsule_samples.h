@@ -1,4 +1,4 @@
-// The capsules' surface as samples and as a mesh.
+// Point samples and meshes of the capsules' surface.
 #pragma once
 
 #include "methods/capsule_icp/capsule.h"
@@ -11,10 +11,11 @@ struct SurfaceSample {
   Vector3d place;
 };
 
-// Samples about `spacing_m` apart of what no other capsule covers.
+// Samples, about `spacing_m` apart, of the capsules' surface outside all other capsules.
 std::vector<SurfaceSample> SampleCapsules(const std::vector<Capsule>& capsules, double spacing_m);
 
-// A closed mesh of each capsule, with so many corners round its axis, and the bone of each vertex.
+// A closed mesh of each capsule, with `corners` vertices round its axis, and the bone of each
+// vertex.
 struct CapsuleMesh {
   TriangleMesh mesh;
   std::vector<int> bones;

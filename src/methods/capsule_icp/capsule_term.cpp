@@ -68,7 +68,7 @@ DataRow ClosestPointRow(const PosedCapsules& capsules, const Vector3f& point,
   const bool faces_camera = nearest.normal.dot(point) < 0.0f;
   const bool agrees = normal.isZero() || normal.dot(nearest.normal) > facing_cosine;
   if (std::abs(nearest.distance_m) > cutoff_m || !faces_camera || !agrees) return {};
-  // The point stays and the capsule moves: its surface comes nearer as it moves along the normal.
+  // The point is fixed and the capsule moves, so a motion along the normal reduces the distance.
   return {capsules.rest()[nearest.capsule].bone, point, -nearest.normal, nearest.distance_m};
 }
 
@@ -147,7 +147,7 @@ void CapsuleTerm::MatchPoints(float cutoff_m, WorkerTeam& team) {
   });
 }
 
-// At a pixel that only the observation covers, the nearest capsule is drawn there.
+// At a pixel that only the observation covers, the row is that of the nearest capsule.
 void CapsuleTerm::MatchPixels(const BoneTransforms& camera_from_rest, float cutoff_m,
                               WorkerTeam& team) {
   vertices_.resize(mesh_.bones.size());

@@ -17,15 +17,15 @@ struct DataRow {
   float residual = 0.0f;
 };
 
-// What an observed point says of the capsules: its distance from the nearest one. No row if that
-// is farther than cutoff_m, turned away from the camera, or turned away from the observed normal
-// (of unit length, towards the camera; zero if unknown).
+// Row of an observed point: its distance from the nearest capsule. No row if the capsule is farther
+// than cutoff_m, or if its surface faces away from the camera or from the observed normal (unit
+// length, towards the camera; zero if unknown).
 DataRow ClosestPointRow(const PosedCapsules& capsules, const Vector3f& point,
                         const Vector3f& normal, float cutoff_m, float facing_cosine);
 
-// What a pixel says of the model's point that is rendered there: observed minus rendered depth; as
-// the point moves it is compared with another pixel, hence the observed depth's slope (metres per
-// pixel, (0, 0) where there is none). No row if the difference exceeds cutoff_m.
+// Row of a rendered pixel: observed minus rendered depth of the model's point at the pixel. Because
+// the point moves to other pixels, the row contains the slope of the observed depth (metres per
+// pixel, (0, 0) if there is none). No row if the difference exceeds cutoff_m.
 DataRow DepthDifferenceRow(const PinholeCamera& camera, int bone, const Vector3f& rendered_point,
                            float observed_depth_m, const Eigen::Vector2f& slope, float cutoff_m);
 

@@ -1,4 +1,4 @@
-// The capsules of a body in a pose, laid out so that a point is compared with all of them at once.
+// The capsules of a body in a pose, in a layout for comparing a point with eight of them at once.
 #pragma once
 
 #include "methods/capsule_icp/capsule.h"
@@ -26,8 +26,8 @@ class PosedCapsules {
   static constexpr int kLanes = 8;  // floats in a vector register
   using Lanes = Eigen::Array<float, kLanes, 1>;
 
-  // Eight capsules in the camera frame: start, axis, length, first radius, its loss per metre, and
-  // tan φ. The last group is filled up with copies of the last capsule.
+  // Eight capsules in the camera frame: start, axis, length, first radius, decrease of the radius
+  // per metre, and tan φ. The last group is padded with copies of the last capsule.
   struct Group {
     Lanes start_x, start_y, start_z, axis_x, axis_y, axis_z, length, radius, slope, tangent;
   };

@@ -10,7 +10,7 @@ void CapsuleSettings::Describe(Fields& f) {
              .origin = Origin::kGuessed,
              .source = "a trunk is wider than deep"});
   f.Number("sample_spacing_m", sample_spacing_m,
-           {.meaning = "distance of the samples of the capsules' surface that must not stand where "
+           {.meaning = "spacing of the samples of the capsules' surface, which must not lie where "
                        "the frame shows empty space",
             .unit = "m",
             .min = 0.005,
@@ -47,16 +47,16 @@ std::string MatchSettings::Problem() const {
 
 void SilhouetteSettings::Describe(Fields& f) {
   f.Number("weight", weight,
-           {.meaning = "weight of the samples that lie outside the observed silhouette, against "
-                       "that of the points; 0: left out",
+           {.meaning = "weight of the samples outside the observed silhouette, relative to that of "
+                       "the points; 0: no silhouette term",
             .min = 0,
             .max = 1e6,
             .origin = Origin::kTuned,
             .source = "λ_s; captured/walk: from 0.05 on limbs stick to the trunk's edge"});
   if (!f.Applies(weight > 0.0)) return;
   f.Integer("reach_px", reach_px,
-            {.meaning = "columns or rows beyond which a sample outside the silhouette is not drawn "
-                        "to it",
+            {.meaning = "number of columns or rows from the silhouette beyond which a sample "
+                        "outside it gets no row",
              .unit = "px",
              .min = 1,
              .max = 1000,
@@ -65,8 +65,8 @@ void SilhouetteSettings::Describe(Fields& f) {
 
 void FreeSpaceSettings::Describe(Fields& f) {
   f.Number("weight", weight,
-           {.meaning = "weight of the samples that lie in front of the observed surface, against "
-                       "that of the points; 0: left out",
+           {.meaning = "weight of the samples in front of the observed surface, relative to that "
+                       "of the points; 0: no free-space term",
             .min = 0,
             .max = 1e6,
             .origin = Origin::kTuned,
@@ -81,8 +81,8 @@ void FreeSpaceSettings::Describe(Fields& f) {
        .origin = Origin::kGuessed,
        .source = "δ = 3 σ"});
   f.Number("reach_m", reach_m,
-           {.meaning = "depth beyond which a sample in front of the observed surface is taken for "
-                       "another part of the body, and is not pushed back",
+           {.meaning = "depth beyond which a sample in front of the observed surface is assumed to "
+                       "be another part of the body and gets no row",
             .unit = "m",
             .min = 0.001,
             .max = 10,
@@ -91,21 +91,21 @@ void FreeSpaceSettings::Describe(Fields& f) {
 
 void Settings::Describe(Fields& f) {
   f.Visit(common);
-  f.Section("capsules", capsules, {.meaning = "the capsules that stand for the body"});
+  f.Section("capsules", capsules, {.meaning = "the capsules that represent the body"});
   f.Choice("data_term", data_term,
            {{"closest_point", DataTermKind::kClosestPoint},
             {"depth_difference", DataTermKind::kDepthDifference}},
-           {.meaning = "what draws the capsules to the frame: each observed point to its nearest "
-                       "capsule, or the difference of observed and rendered depth at each pixel",
+           {.meaning = "correspondences of the data term: each observed point and its nearest "
+                       "capsule, or observed and rendered depth at each pixel",
             .origin = Origin::kGuessed,
             .source = "Ganapathi 2012: closest_point; Wei 2012: depth_difference"});
-  f.Section("match", match, {.meaning = "which points and pixels count"});
-  f.Section("silhouette", silhouette, {.meaning = "nothing of the model outside the silhouette"});
+  f.Section("match", match, {.meaning = "thresholds for matching points and pixels"});
+  f.Section("silhouette", silhouette, {.meaning = "penalty on the model outside the silhouette"});
   f.Section("free_space", free_space,
-            {.meaning = "nothing of the model in front of the observed surface"});
+            {.meaning = "penalty on the model in front of the observed surface"});
   f.Number("intersection_weight", intersection_weight,
            {.meaning = "weight of the overlap of two capsules whose bones are not neighbours, "
-                       "against that of a point; 0: left out",
+                       "relative to that of a point; 0: no intersection term",
             .min = 0,
             .max = 1e6,
             .origin = Origin::kGuessed,

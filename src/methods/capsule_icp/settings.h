@@ -5,7 +5,7 @@
 
 namespace vitruvia::capsule_icp {
 
-// What draws the capsules to the frame's surface.
+// The correspondences of the data term.
 enum class DataTermKind {
   kClosestPoint,     // Ganapathi 2012: each observed point to its nearest capsule
   kDepthDifference,  // Wei 2012: at each rendered pixel the difference of observed and model depth

@@ -1,4 +1,4 @@
-// The pixels that a frame measures, as a silhouette: which of them is nearest to any pixel.
+// The silhouette of a frame's measured pixels: finds the nearest of them for any pixel.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@ namespace vitruvia::capsule_icp {
 
 class Silhouette {
  public:
-  // Farther than reach_px columns or rows from all measured pixels nothing is looked for.
+  // Pixels farther than reach_px columns or rows from all measured ones have no nearest pixel.
   Silhouette(const PinholeCamera& camera, int reach_px);
 
   void Observe(const DepthImage& depth, float max_depth_m);

@@ -10,7 +10,7 @@ namespace vitruvia::dynamic {
 namespace {
 
 constexpr float kNearest_m = 0.05f;    // vertices nearer to the camera are not projected
-constexpr float kRounding_px = 1e-2f;  // the search goes that much farther than exact numbers ask
+constexpr float kRounding_px = 1e-2f;  // margin of the search for rounding errors
 constexpr int kPointsPerRange = 512;
 
 void FillRays(double focal_px, double center_px, int window_px, std::vector<float>& rays) {
@@ -68,7 +68,7 @@ void Association::ProjectPatch(int patch, const Surface<float>& surface,
     lowest = candidate < lowest ? candidate : lowest;
     highest = pixel > highest ? pixel : highest;
   }
-  // Without a branch that could be foreseen wrongly.
+  // Branch-free, to avoid mispredictions.
   int count = 0;
   for (int slot = begin; slot < end; ++slot) {
     facing_[begin + count] = slot;
@@ -148,8 +148,8 @@ void Association::FindLongestRays(int window_px) {
   FillRays(camera_.fy, camera_.cy, window_px, row_ray_);
 }
 
-// The columns of one row of pixels hold their vertices side by side. Eight are looked at at once,
-// without a branch that could be foreseen wrongly; the best of the eight lanes is told at the end.
+// The columns of one row of pixels hold their vertices side by side. Eight are compared at once
+// without branches; the best of the eight lanes is selected at the end.
 inline void Association::ScanRow(const Vector3f& point, int row, int first_column, int last_column,
                                  Best& best) const {
   if (row < first_row_ || row > last_row_) return;

@@ -1,5 +1,5 @@
-// Projective data association (paper B, sec. 4.1): every observed point looks for the closest model
-// vertex in the pixels round its own.
+// Projective data association (paper B, sec. 4.1): every observed point is paired with the closest
+// model vertex in a window round its pixel.
 #pragma once
 
 #include <algorithm>
@@ -14,12 +14,12 @@
 namespace vitruvia::dynamic {
 
 struct AssociationLimits {
-  int window_px = 16;          // columns and rows to either side of a point's pixel
+  int window_px = 16;          // half width: columns and rows to either side of a point's pixel
   float cutoff_m = 0.08f;      // vertices at this distance or farther are not taken
   float facing_cosine = 0.1f;  // least cosine of the angle between normal and line of sight
 };
 
-// What was observed of each slot: the sum of the points that chose it, and how many.
+// The observations of each slot: sum and number of the points that are paired with it.
 template <class Scalar>
 struct Observations {
   std::vector<Scalar> sums;  // x, y, z, count of each slot
@@ -54,9 +54,9 @@ class Association {
   // Each thread of the team fills the buckets of its share of the rows.
   void FillBuckets(const Surface<float>& surface, WorkerTeam& team);
   // For each point of the cloud the closest vertex among the buckets of its window, nearer than the
-  // cutoff; of equally close ones the one of the lowest slot; −1 if there is none. The search
-  // begins at the point's pixel and ends where the width of a pixel alone makes vertices farther
-  // than the best so far: exact.
+  // cutoff; of equally close ones the one of the lowest slot; −1 if there is none. The search is
+  // exact: it begins at the point's pixel and stops when vertices of farther pixels cannot be
+  // closer than the best one so far.
   void FindNearest(const PointCloud& cloud, const AssociationLimits& limits, WorkerTeam& team);
   // Adds the points to the vertices that they chose, in the cloud's order. Each thread of the team
   // sums the points of its share of the slots.
@@ -71,7 +71,7 @@ class Association {
     FloatLanes squared;
     IntLanes slot;
   };
-  // What the camera sees of a patch: how many slots have a pixel, and between which.
+  // The visible part of a patch: number of slots with a pixel, and range of their pixels.
   struct PatchView {
     int facing = 0, lowest_pixel = 0, highest_pixel = 0;
   };
@@ -92,8 +92,8 @@ class Association {
   std::vector<int> bucket_begin_;  // per pixel, and one more
   std::vector<int> part_entries_;  // per thread: the entries of the buckets that it fills
   int first_row_ = 0, last_row_ = -1;
-  // The facing slots sorted by pixel: their positions and numbers, and kLanes more that are never
-  // taken.
+  // The facing slots sorted by pixel: their positions and numbers, followed by kLanes dummies that
+  // are never chosen.
   Columns<float> sorted_;
   std::vector<int> sorted_slots_;
   // Per column and row: the longest (u − cx, fx) or (v − cy, fy) in the window round it, pixels.

@@ -30,8 +30,8 @@ struct LaneVector {
   }
 };
 
-// These are inlined by force: GCC calls them otherwise and passes eight lanes through memory, which
-// makes skinning slower by half.
+// Inlining is forced: otherwise GCC emits calls that pass eight lanes through memory, which slows
+// skinning down by half.
 template <class Scalar>
 [[gnu::always_inline]] inline Lanes<Scalar> Dot(const LaneVector<Scalar>& a,
                                                 const LaneVector<Scalar>& b) {

@@ -69,7 +69,7 @@ struct Dynamic::Session {
     for (const int joint : tree.ChainOf(static_cast<int>(BoneId::kPelvis))) root_joints[joint] = 1;
   }
 
-  // What watches the areas, if the settings ask for it.
+  // Monitoring of areas, if enabled in the settings.
   struct Watch {
     BodyAreaMeter meter;
     AreaWatch verdict;
@@ -117,7 +117,7 @@ struct Dynamic::Session {
   Clock clock;
 };
 
-// What fitting one frame gave.
+// Result of fitting one frame.
 struct Dynamic::FrameFit {
   int iterations = 0;  // of the pose
   bool solved = true;  // by all iterations
@@ -174,7 +174,7 @@ void Dynamic::ReadClouds(const DepthFrame& frame) {
   s.clock.Lap(TimedStep::kCloud);
 }
 
-// Leaves the session without a place if the subject was searched for and not found.
+// Leaves the session unplaced if a search does not find the subject.
 void Dynamic::FindFirstPose(const DepthFrame& frame) {
   Session& s = *session_;
   if (settings_.start == Start::kRestPose) return Place();
@@ -188,8 +188,8 @@ void Dynamic::FindFirstPose(const DepthFrame& frame) {
   s.clock.Lap(TimedStep::kSolve);
 }
 
-// Judges the frame by areas, and takes a pose out of the current one's reach if it looks more like
-// the subject. The shape stays.
+// Detects a lost frame by areas, and adopts a pose out of the current one's reach if it overlaps
+// better with the frame. The shape is kept.
 void Dynamic::WatchAreas(const DepthFrame& frame) {
   Session& s = *session_;
   const BodyAreas here = MeasureAreas(frame.depth);
@@ -217,7 +217,7 @@ void Dynamic::WatchAreas(const DepthFrame& frame) {
   s.clock.Lap(TimedStep::kSolve);
 }
 
-// As near as the tracker's own cutoff counts as explained.
+// Points within the tracker's own cutoff count as explained.
 BodyAreas Dynamic::MeasureAreas(const DepthImage& depth) {
   constexpr float kNear_m = 0.05f;
   Session& s = *session_;
@@ -230,7 +230,7 @@ BodyAreas Dynamic::MeasureAreas(const DepthImage& depth) {
   return s.watch->meter.Measure(vertices, bones, depth, {kNear_m, 1, 0.0f});
 }
 
-// Moves the root's joints alone until the rest pose stands where the first frame's points are.
+// Aligns the rest pose with the first frame's points by moving only the root's joints.
 void Dynamic::Place() {
   Session& s = *session_;
   const PlacementSettings& settings = settings_.placement;
@@ -264,7 +264,7 @@ Dynamic::FrameFit Dynamic::FitPose(bool is_first) {
   for (int k = 0; k < s.tree.joint_count(); ++k) {  // the prediction does not move a frozen joint
     if (!is_first && s.solver.IsFrozen(k)) s.theta[k] = start[k];
   }
-  // The few points that were matched in a lost frame would carry the body away.
+  // In a lost frame the few matched points would move the body to a wrong place.
   if (!is_first && IsLost(fit)) s.theta = start;
   s.theta_before = is_first ? s.theta : start;
   s.tree.Pose(s.camera_from_start, s.theta, s.pose);

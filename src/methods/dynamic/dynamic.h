@@ -16,7 +16,7 @@ namespace vitruvia::dynamic {
 
 class Dynamic final : public Tracker {
  public:
-  // Reads the skeleton file. ConfigError naming what is wrong with it.
+  // Reads the skeleton file. ConfigError if it is invalid.
   explicit Dynamic(const Settings& settings);
   Dynamic(const Settings& settings, SkeletonFile skeleton);  // settings.skeleton is not read
   ~Dynamic() override;

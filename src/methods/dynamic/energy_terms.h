@@ -6,9 +6,9 @@
 namespace vitruvia::dynamic {
 
 // Each value is weighted as minimised and taken before the frame's last step of its kind. Every
-// frame reports every term. A term that the frame did not evaluate is 0: all terms where the frame
-// holds no measurement, and the shape's terms where no shape step is made. The damping λ is no
-// energy: it weighs the step, which is 0 where the others are evaluated.
+// frame reports every term. A term that the frame did not evaluate is 0: all terms if the frame
+// holds no measurement, and the shape's terms if no shape step is made. The damping λ is not an
+// energy: it penalises the step, which is 0 where the terms are evaluated.
 enum EnergyTerm {
   kDataTerm,             // Σ r_i² of the pose step, m² (eq. 6)
   kDefaultPoseTerm,      // γ Σ_k D_k θ_k² of the pose step's prior

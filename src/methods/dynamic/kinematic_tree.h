@@ -39,8 +39,9 @@ using Twist = Eigen::Matrix<double, 6, 1>;
 
 struct TreePose {
   std::array<DualQuaternion<double>, kBoneCount> camera_from_rest;  // B_b = T_k(θ) T_k(0)⁻¹
-  // The pelvis joint's position, so that the levers of joints are short: sums of products of long
-  // ones lose single precision, the more the farther the body is from the camera.
+  // The pelvis joint's position, so that the lever arms of joints are short: with the camera as
+  // origin, sums of products of lever arms would lose precision in floats, increasingly with the
+  // body's distance.
   Vector3<double> twist_origin;
   std::vector<Twist> twists;  // per joint
 };
@@ -57,7 +58,7 @@ class KinematicTree {
   const std::vector<int>& ChainOf(int bone) const { return chains_[bone]; }
 
   void Pose(const Rigidd& camera_from_start, const Eigen::VectorXd& theta, TreePose& pose) const;
-  // Brings every joint value into its limits.
+  // Clamps every joint value to its limits.
   void Clamp(Eigen::VectorXd& theta) const;
 
  private:

@@ -1,5 +1,5 @@
-// One level of detail: a surface, the observed points that it is matched with, and the equations
-// that follow.
+// One level of detail: a surface, the observed points that it is matched with, and the resulting
+// equations.
 #pragma once
 
 #include <array>
@@ -42,7 +42,7 @@ struct Level {
   // The pose step's normal equations of the last Match.
   void Assemble(const KinematicTree& tree, const TreePose& pose, WorkerTeam& team,
                 PoseEquations& result, Clock& clock);
-  // Share of the points that found a vertex in the last Match.
+  // Share of the points that were paired with a vertex in the last Match.
   double MatchedShare() const;
 
   Surface<float> surface;

@@ -1,4 +1,4 @@
-// Where the body probably stands in the first frame.
+// Initial placement of the body in the first frame.
 #pragma once
 
 #include <vector>
@@ -11,15 +11,15 @@
 namespace vitruvia::dynamic {
 
 // camera_from_subject of an upright body that faces the camera: its crown at the highest point of
-// the cloud, and the mean of its front vertices at the cloud's mean. Holds also when only the
-// upper part of the body is in view. Vertices in the subject frame (y up, z to the front), cloud in
-// the camera frame, metres; neither may be empty.
+// the cloud, and the mean of its front vertices at the cloud's mean. Also works if only the upper
+// part of the body is in view. Vertices in the subject frame (y up, z to the front), cloud in the
+// camera frame, metres; neither may be empty.
 Rigidd UprightPlacement(const std::vector<Vector3f>& rest_vertices,
                         const std::vector<Vector3f>& cloud);
 
-// The tree's start frame and joint values that come nearest to a pose given by its bones' motions:
-// the pelvis' motion is the start frame's, and the joints' values, within their limits, turn the
-// bones as wanted (least squares over rotation vectors, camera frame).
+// The tree's start frame and joint values that best match a pose given by its bones' motions: the
+// pelvis' motion is that of the start frame, and the joint values, within their limits, minimise
+// the squared rotation vectors between wanted and obtained bone rotations (camera frame).
 struct TreeStart {
   Rigidd camera_from_start;
   Eigen::VectorXd theta;

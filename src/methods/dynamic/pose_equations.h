@@ -1,10 +1,10 @@
 // The normal equations of the pose step (paper B, sec. 4.2, eqs. 7 and 8).
 //
-// ∂r_i/∂θ = n_iᵀ ∂v_i/∂b_i ∂b_i/∂T ∂T/∂θ is taken apart behind ∂T: a change of link k is a twist
-// (φ, τ), T_k ← (1 + ½(φ + ε τ)) T_k, and one row of 6 numbers for each of a vertex's at most four
-// links says all that a vertex has to say. JᵀJ and Jᵀr are summed over these rows, 6 for each bone,
-// and only then carried to the joints by S, which holds the joints' twists: J = J_links S. The cost
-// of a vertex does not depend on how many joints there are.
+// ∂r_i/∂θ = n_iᵀ ∂v_i/∂b_i ∂b_i/∂T ∂T/∂θ is evaluated in two parts. A change of link k is a twist
+// (φ, τ), T_k ← (1 + ½(φ + ε τ)) T_k, so a vertex contributes one row of 6 numbers for each of its
+// at most four links. JᵀJ and Jᵀr are summed over these rows, 6 unknowns for each bone, and then
+// reduced to the joints by S, which holds the joints' twists: J = J_links S. The cost of a vertex
+// does not depend on the number of joints.
 #pragma once
 
 #include <vector>
@@ -23,8 +23,9 @@ struct PoseEquations {
   Eigen::MatrixXd hessian;                 // JᵀJ, joints × joints
   Eigen::VectorXd gradient;                // Jᵀr
   double energy = 0.0;                     // Σ r²
-  int residuals = 0;                       // vertices that some point chose
-  std::array<int, kBoneCount> observed{};  // of these by the bone of their largest weight
+  int residuals = 0;                       // number of vertices that are paired with a point
+  std::array<int, kBoneCount> observed{};  // number of these vertices by the bone of their largest
+                                           // weight
 };
 
 // The bones' motions as the equations need them: about the twists' origin instead of the camera's.

@@ -19,7 +19,7 @@ struct PoseStepWeights {
 };
 
 struct PoseStep {
-  bool solved = false;               // false: theta is as it was
+  bool solved = false;               // false: theta is unchanged
   double rotation_rad = 0.0;         // largest change of a hinge
   double translation_m = 0.0;        // largest change of a prismatic joint
   double condition = -1.0;           // of the solved system, an estimate; -1: none
@@ -37,7 +37,7 @@ class PoseSolver {
                 const std::vector<char>& may_move, const PoseStepWeights& weights,
                 Eigen::VectorXd& theta);
 
-  // The curvature of the last step's energy, frozen joints not held: JᵀJ + λI + γD.
+  // The Hessian JᵀJ + λI + γD of the last step's energy, including frozen joints.
   Eigen::MatrixXd Curvature(const KinematicTree& tree, const PoseEquations& equations,
                             const PoseStepWeights& weights) const;
 

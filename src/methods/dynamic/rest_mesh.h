@@ -1,5 +1,4 @@
-// What the tracker needs of the rest mesh beyond positions: normals that follow the warps, and each
-// vertex's closest neighbours.
+// Normals of the rest mesh, updated with the warps, and each vertex's closest neighbours.
 #pragma once
 
 #include <array>
@@ -14,8 +13,8 @@ namespace vitruvia::dynamic {
 inline constexpr int kNeighbors = 4;  // paper B, sec. 4.3
 
 // The closest vertices of each vertex in the rest mesh (eq. 9's N(i)), among those at most two
-// edges away: vertices that are close but belong to another part of the body, as thighs do, are no
-// neighbours. −1 where a vertex has fewer.
+// edges away: vertices that are close but on another part of the body, such as the other thigh, are
+// not neighbours. −1 if a vertex has fewer neighbours.
 using NeighborTable = std::vector<std::array<int, kNeighbors>>;
 NeighborTable ClosestNeighbors(const std::vector<Vector3f>& vertices,
                                const std::vector<Triangle>& triangles);

@@ -6,8 +6,8 @@ namespace vitruvia::dynamic {
 
 void AssociationSettings::Describe(Fields& f) {
   f.Integer("window_px", window_px,
-            {.meaning = "columns and rows to either side of a point's pixel in which it looks for "
-                        "the closest vertex",
+            {.meaning = "half width, in columns and rows, of the window round a point's pixel in "
+                        "which its closest vertex is searched",
              .unit = "px",
              .min = 0,
              .max = 1000,
@@ -15,16 +15,15 @@ void AssociationSettings::Describe(Fields& f) {
              .source = "paper B is silent; holds the cutoff's 0.12 m at 1.4 m and 365 px of focal "
                        "length"});
   f.Number("cutoff_m", cutoff_m,
-           {.meaning = "vertices farther from a point than this are not taken, in a frame's first "
-                       "iteration",
+           {.meaning = "largest distance of a point from its vertex in a frame's first iteration",
             .unit = "m",
             .min = 1e-4,
             .max = 10,
             .origin = Origin::kGuessed,
             .source = "paper B is silent; a hand at 3.6 m/s between frames of 30 Hz"});
   f.Number("last_cutoff_m", last_cutoff_m,
-           {.meaning = "the cutoff falls to this, by the same factor from each pose iteration of a "
-                       "frame to the next",
+           {.meaning = "largest distance of a point from its vertex in a frame's last iteration; "
+                       "between cutoff_m and this it falls geometrically",
             .unit = "m",
             .min = 1e-4,
             .max = 10,
@@ -33,23 +32,23 @@ void AssociationSettings::Describe(Fields& f) {
                       "the head away: dynamic_close is off by 4.0 mm, by 1.6 with 0.02. For the "
                       "noise of a Kinect v1 0.03 is better (ablations/dynamic_cutoff)"});
   f.Number("facing_cosine", facing_cosine,
-           {.meaning = "a vertex is taken only if the angle between its normal and the line of "
-                       "sight has at least this cosine",
+           {.meaning = "minimum cosine of the angle between a vertex's normal and the line of "
+                       "sight for the vertex to be paired",
             .min = 0,
             .max = 1,
             .origin = Origin::kGuessed,
             .source = "paper B is silent"});
   f.Integer("pose_pixel_stride", pose_pixel_stride,
-            {.meaning = "the pose step takes pixels of every how many columns and rows; the shape "
-                        "step takes all",
+            {.meaning = "stride in columns and rows of the pixels that the pose step uses; the "
+                        "shape step uses all pixels",
              .unit = "px",
              .min = 1,
              .max = 16,
              .origin = Origin::kPaper,
              .source = "paper B: all; more is ours, coarse to fine"});
   f.Integer("pose_vertex_stride", pose_vertex_stride,
-            {.meaning = "the pose step takes about one of that many vertices, evenly spread; the "
-                        "shape step takes all",
+            {.meaning = "the pose step uses about one of this many vertices, evenly spread; the "
+                        "shape step uses all vertices",
              .min = 1,
              .max = 64,
              .origin = Origin::kPaper,
@@ -64,19 +63,19 @@ std::string AssociationSettings::Problem() const {
 
 void PoseSettings::Describe(Fields& f) {
   f.Integer("iterations", iterations,
-            {.meaning = "pose iterations for a frame, at most",
+            {.meaning = "maximum number of pose iterations for a frame",
              .min = 0,
              .max = 1000,
              .origin = Origin::kPaper,
              .source = "paper B, sec. 4.2: ten to fifteen"});
   f.Integer("first_frame_iterations", first_frame_iterations,
-            {.meaning = "pose iterations for the first frame, at most",
+            {.meaning = "maximum number of pose iterations for the first frame",
              .min = 0,
              .max = 1000,
              .origin = Origin::kGuessed,
              .source = "paper B is silent"});
   f.Number("prediction", prediction,
-           {.meaning = "share of the last frame's motion of each joint that a frame begins with",
+           {.meaning = "share of each joint's last motion that is predicted for the next frame",
             .min = 0,
             .max = 1,
             .origin = Origin::kTuned,
@@ -89,29 +88,28 @@ void PoseSettings::Describe(Fields& f) {
             .origin = Origin::kTuned,
             .source = "paper B is silent; 0.002 … 0.01 do alike on dynamic_far"});
   f.Number("default_pose_weight", default_pose_weight,
-           {.meaning = "γ: draws each joint to its default 0, times the number of vertices that "
-                       "it moves",
+           {.meaning = "γ: weight of the prior that pulls each joint to its default 0, times the "
+                       "number of vertices that the joint moves",
             .min = 0,
             .max = 1e9,
             .origin = Origin::kTuned,
             .source = "paper B is silent; on 80 frames of dynamic_far the elbows are off by 91 mm "
                       "at most at 1e-5, by 21 at 1e-6, and all joints more again at 1e-7"});
   f.Number("freeze_below_share", freeze_below_share,
-           {.meaning = "a joint is held, not solved, while a smaller share of the vertices that it "
-                       "moves was chosen by points",
+           {.meaning = "a joint is frozen while a smaller share of the vertices that it moves is "
+                       "paired with points",
             .min = 0,
             .max = 1,
             .origin = Origin::kGuessed,
             .source = "paper B lets it relax to the default pose, as 0 does"});
-  f.Number(
-      "rotation_step_deg", rotation_step_deg,
-      {.meaning = "stop when every hinge turned by less in an iteration, however wide the cutoff "
-                  "still is; 0: never",
-       .unit = "deg",
-       .min = 0,
-       .max = 180,
-       .origin = Origin::kGuessed,
-       .source = "paper B: a fixed number of iterations"});
+  f.Number("rotation_step_deg", rotation_step_deg,
+           {.meaning = "stop when every hinge rotated by less in an iteration, whatever the "
+                       "current cutoff; 0: never",
+            .unit = "deg",
+            .min = 0,
+            .max = 180,
+            .origin = Origin::kGuessed,
+            .source = "paper B: a fixed number of iterations"});
   f.Number("translation_step_m", translation_step_m,
            {.meaning = "stop when every prismatic joint moved by less in an iteration; 0: never",
             .unit = "m",
@@ -135,20 +133,20 @@ void ShapeSettings::Describe(Fields& f) {
              .origin = Origin::kGuessed,
              .source = "paper B is silent; shape match has no other frame to fit"});
   f.Number("cutoff_m", cutoff_m,
-           {.meaning = "vertices farther from a point than this take no part in its shape",
+           {.meaning = "largest distance of a point from its vertex in the shape step",
             .unit = "m",
             .min = 1e-4,
             .max = 10,
             .origin = Origin::kGuessed,
             .source = "paper B is silent; deeper than cloth folds, nearer than the next limb"});
   f.Number("magnitude_weight", magnitude_weight,
-           {.meaning = "λ_d of eq. 9, against the length of a warp",
+           {.meaning = "λ_d of eq. 9: weight of the squared length of warps",
             .min = 0,
             .max = 1e6,
             .origin = Origin::kGuessed,
             .source = "paper B is silent"});
   f.Number("neighbor_weight", neighbor_weight,
-           {.meaning = "λ_s of eq. 9, against the difference of neighbouring warps",
+           {.meaning = "λ_s of eq. 9: weight of the squared difference of neighbouring warps",
             .min = 1e-9,
             .max = 1e6,
             .origin = Origin::kGuessed,
@@ -157,8 +155,8 @@ void ShapeSettings::Describe(Fields& f) {
 
 void PlacementSettings::Describe(Fields& f) {
   f.Integer("iterations", iterations,
-            {.meaning = "iterations of the root's joints alone that put the rest pose onto the "
-                        "first frame",
+            {.meaning = "number of iterations of the root's joints alone that align the rest pose "
+                        "with the first frame",
              .min = 0,
              .max = 1000,
              .origin = Origin::kGuessed,
@@ -187,16 +185,18 @@ void Settings::Describe(Fields& f) {
             {"shape_match", Mode::kShapeMatch},
             {"smooth_bind", Mode::kSmoothBind},
             {"rigid", Mode::kRigid}},
-           {.meaning = "what becomes of the surface: warps in every frame, in the first only, "
-                       "none, or none on rigid parts",
+           {.meaning = "warps of the surface: estimated in every frame, in the first frame only, "
+                       "none, or none with rigid parts",
             .origin = Origin::kPaper,
             .source = "paper B, sec. 5.1"});
-  f.Section("association", association, {.meaning = "which point belongs to which vertex"});
+  f.Section("association", association, {.meaning = "association of points with vertices"});
   f.Section("pose", pose, {.meaning = "damped least squares over the joints"});
   f.Section("shape", shape, {.meaning = "warps of the vertices"});
   DescribeStart(f, start);
-  f.Section("placement", placement, {.meaning = "how the rest pose is put onto the first frame"});
-  f.Section("watch", watch, {.meaning = "areas that model and frame do not account for"});
+  f.Section("placement", placement, {.meaning = "alignment of the rest pose with the first frame"});
+  f.Section(
+      "watch", watch,
+      {.meaning = "detection of a lost subject by the areas in which model and frame disagree"});
   if (f.Applies(start == Start::kSearch || watch.lost_above > 0.0)) {
     f.Section("start_search", start_search,
               {.meaning = "search for the first pose, or for a subject that is not tracked"});
@@ -204,20 +204,19 @@ void Settings::Describe(Fields& f) {
   f.Section("uncertainty", uncertainty,
             {.meaning = "covariances of the joints, from the normal equations"});
   f.Number("max_depth_m", max_depth_m,
-           {.meaning = "pixels beyond are no measurement of the subject",
+           {.meaning = "pixels with a larger depth are not measurements of the subject",
             .unit = "m",
             .min = 0.1,
             .max = 100,
             .origin = Origin::kGuessed,
             .source = "range of the depth cameras in use"});
-  f.Number(
-      "lost_below", lost_below,
-      {.meaning = "a frame is lost, and pose and shape are carried over, when less than this share "
-                  "of the points found a vertex even in its best iteration",
-       .min = 0,
-       .max = 1,
-       .origin = Origin::kGuessed,
-       .source = "paper B is silent"});
+  f.Number("lost_below", lost_below,
+           {.meaning = "a frame is lost, and pose and shape are kept, when less than this share of "
+                       "the points was paired with a vertex even in its best iteration",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kGuessed,
+            .source = "paper B is silent"});
   f.Integer("threads", threads,
             {.meaning = "threads that a frame is computed on; the result does not depend on it",
              .min = 1,

@@ -11,12 +11,12 @@
 
 namespace vitruvia::dynamic {
 
-// What becomes of the surface (paper B, sec. 5.1).
+// Deformation of the surface by warps (paper B, sec. 5.1).
 enum class Mode {
   kFull,        // warps are estimated in every frame
-  kShapeMatch,  // in the first frames only, then they are frozen
+  kShapeMatch,  // warps are estimated in the first frame only, then frozen
   kSmoothBind,  // not at all
-  kRigid,       // not at all, and the mesh is cut into one rigid part for each bone
+  kRigid,       // no warps, and the mesh is cut into one rigid part for each bone
 };
 
 struct AssociationSettings {

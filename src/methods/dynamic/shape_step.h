@@ -2,12 +2,12 @@
 //
 //   Σ_i { r_i² + λ_d ‖ω_i‖² + λ_s Σ_{j∈N(i)} ‖ω_i − ω_j‖² }
 //
-// Each vertex on its own, its neighbours held (Jacobi): with g_i = R_iᵀ n_i,
+// Each vertex is solved separately with its neighbours fixed (Jacobi): with g_i = R_iᵀ n_i,
 //   A_i = g_i g_iᵀ + α I,  α = λ_d + λ_s |N|,
 //   h_i = g_i r_i + λ_d ω_i + λ_s Σ_j (ω_i − ω_j),
 //   ω_i ← ω_i − A_i⁻¹ h_i,  A_i⁻¹ h = (h − g (g·h) / (α + g·g)) / α  (Sherman & Morrison 1950).
-// A vertex that no point chose has no r_i: g_i = 0. Then ω_i becomes a mean of its neighbours'
-// drawn towards 0, so warps stay within what they were when data vanish.
+// A vertex without a paired point has no r_i: g_i = 0. Then ω_i becomes the mean of its neighbours'
+// warps shrunk towards 0, so warps do not grow where data are missing.
 #pragma once
 
 #include <vector>

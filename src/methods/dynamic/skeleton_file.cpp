@@ -84,13 +84,13 @@ std::string CycleProblem(const std::vector<JointSettings>& joints,
 }  // namespace
 
 void LimitSettings::Describe(Fields& f) {
-  f.Number("lower", lower, {.meaning = "least value", .required = true});
-  f.Number("upper", upper, {.meaning = "greatest value", .required = true});
+  f.Number("lower", lower, {.meaning = "lower limit of the joint value", .required = true});
+  f.Number("upper", upper, {.meaning = "upper limit of the joint value", .required = true});
 }
 
 void JointSettings::Describe(Fields& f) {
   f.Text("name", name,
-         {.meaning = "of the joint and of the link that it carries", .required = true});
+         {.meaning = "name of the joint and of the link that it carries", .required = true});
   f.Choice("type", type, {{"hinge", JointType::kHinge}, {"prismatic", JointType::kPrismatic}},
            {.meaning = "rotation about the axis (eq. 1) or translation along it (eq. 2)",
             .required = true});
@@ -109,19 +109,18 @@ void JointSettings::Describe(Fields& f) {
     f.Section("limit_m", limit_m,
               {.meaning = "range of a prismatic joint, metres", .unit = "m", .required = true});
   }
-  f.Number(
-      "prior", prior,
-      {.meaning = "how strongly this joint is drawn to its default 0, times default_pose_weight",
-       .min = 0.0,
-       .max = 1e6,
-       .origin = Origin::kPaper,
-       .source = "paper B, sec. 4.2: all joints alike"});
+  f.Number("prior", prior,
+           {.meaning = "factor on default_pose_weight for this joint's prior about its default 0",
+            .min = 0.0,
+            .max = 1e6,
+            .origin = Origin::kPaper,
+            .source = "paper B, sec. 4.2: all joints alike"});
   f.Text("bone", bone, {.meaning = "bone of the subject's skeleton that moves with the link"});
 }
 
 void SkeletonFile::Describe(Fields& f) {
   f.Text("name", name, {.meaning = "name of the skeleton", .required = true});
-  f.Text("description", description, {.meaning = "what it is for"});
+  f.Text("description", description, {.meaning = "purpose of the skeleton"});
   f.List("joints", joints, {.meaning = "hinges and prismatic joints", .required = true});
 }
 

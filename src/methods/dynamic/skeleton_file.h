@@ -1,6 +1,6 @@
-// The kinematic skeleton as people write it: a JSON file of hinges and slides.
+// The kinematic skeleton as a hand-written JSON file of hinges and prismatic joints.
 //
-// Names follow URDF where it has them. Each joint carries one link, which goes by the joint's name.
+// Names follow URDF where it defines them. Each joint carries one link, which has the joint's name.
 // In the bind pose every joint value is 0, every link's axes are those of the subject frame, and
 // each joint sits where the subject's own 17-bone skeleton says (`at`), so one file serves bodies
 // of all proportions. A ball joint is three hinges in a row (paper B, sec. 3.1).
@@ -43,8 +43,8 @@ struct SkeletonFile {
   std::vector<JointSettings> joints;  // in any order
 
   void Describe(Fields& fields);
-  // Cycles, unknown parents, axes without length, reversed limits, names and bones used twice: what
-  // is wrong with which joint, "" if nothing is.
+  // Cycles, unknown parents, axes without length, reversed limits, names and bones used twice: a
+  // message that names the joint and the problem, or "".
   std::string Problem() const;
 };
 

@@ -1,9 +1,8 @@
-// The skinned surface in columns, eight vertices at a time.
+// The skinned surface as a structure of arrays, processed eight vertices at a time.
 //
-// Vertices that follow the same bones are put side by side, so that their bones are constants of an
-// inner loop and everything else is a column of numbers. A run of them is a patch; patches are
-// filled up to whole lanes with copies of their last vertex. A vertex's place in this order is its
-// slot.
+// Vertices that follow the same bones are stored contiguously, so that the bones are constants of
+// an inner loop. A run of them is a patch; patches are padded to whole lanes with copies of their
+// last vertex. A vertex's index in this order is its slot.
 #pragma once
 
 #include <array>
@@ -20,7 +19,7 @@ namespace vitruvia::dynamic {
 template <class Scalar>
 using Lanes = Eigen::Array<Scalar, kLanes, 1>;
 
-// The slots that one piece of work covers: at most so many, so that two threads share evenly.
+// Maximum number of slots of a patch, the unit of work, so that threads get equal shares.
 inline constexpr int kMaxPatchSlots = 512;
 
 struct Patch {
@@ -36,7 +35,7 @@ struct SurfaceLayout {
   int vertex_count() const { return static_cast<int>(slot_of_vertex.size()); }
 
   std::vector<Patch> patches;
-  std::vector<int> vertex_of_slot;  // −1: filled up
+  std::vector<int> vertex_of_slot;  // −1: padding
   std::vector<int> slot_of_vertex;
 };
 
@@ -78,9 +77,9 @@ BoneMotions<Scalar> MotionsOf(const TreePose& pose);
 
 // Eqs. 3 to 5 for the vertices of one patch, and their normals.
 //
-// Departure: a normal is that of the rest mesh (with its warps) turned by the vertex's blended
-// rotation, not computed anew from the posed triangles: the same where one bone moves a vertex, and
-// at a bent joint off by what the bend shears.
+// Departure: a normal is that of the rest mesh (with its warps) rotated by the vertex's blended
+// rotation, not recomputed from the posed triangles. Both are equal where one bone moves a vertex;
+// at a bent joint they differ by the shear of the bend.
 template <class Scalar>
 void PosePatch(const Patch& patch, const BoneMotions<Scalar>& bones, Surface<Scalar>& surface);
 

@@ -37,7 +37,7 @@ std::vector<std::pair<int, int>> Rims(const std::vector<Triangle>& triangles) {
   return rims;
 }
 
-// Which vertices hang together along the rims: the lowest of each rim, per vertex.
+// Connected components of the rims: for each vertex the lowest vertex of its rim.
 std::vector<int> RimOf(const std::vector<std::pair<int, int>>& rims, std::size_t vertex_count) {
   DisjointSets sets(vertex_count);
   for (const auto& [from, to] : rims) sets.Join(from, to);

@@ -1,4 +1,4 @@
-// The mesh that is tracked, made of a subject's for each of the paper's modes.
+// The tracked mesh, derived from the subject's mesh for each of the paper's modes.
 #pragma once
 
 #include "body/body_model.h"
@@ -14,18 +14,19 @@ struct TrackedMesh {
   SkinWeights weights;
 };
 
-// The subject as it is.
+// The subject's mesh, unchanged.
 TrackedMesh SmoothMesh(const BodyModel& subject);
 
-// The mesh in one part for each bone (paper B, sec. 5.1): a vertex follows the bone of its largest
-// weight alone, triangles across bones go, and every hole is closed by a fan round its middle.
+// The mesh in one part for each bone (paper B, sec. 5.1): a vertex follows only the bone of its
+// largest weight, triangles across bones are removed, and every hole is closed by a fan of
+// triangles round its centre.
 TrackedMesh RigidSegments(const BodyModel& subject);
 
-// About one of `stride` vertices of each set of bones, evenly spread over their order: what a
-// coarse pose step looks at. Indices, ascending.
+// About one of `stride` vertices of each set of bones, evenly spread over their order, for a coarse
+// pose step. Ascending indices.
 std::vector<int> SpreadVertices(const TrackedMesh& mesh, int stride);
 
-// Those vertices alone, without triangles, with the normals that they have.
+// Only those vertices, with their normals and without triangles.
 TrackedMesh Subset(const TrackedMesh& mesh, const std::vector<int>& vertices);
 
 }  // namespace vitruvia::dynamic

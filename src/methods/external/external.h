@@ -1,5 +1,5 @@
-// A tracker that is a program of its own, in any language: PROTOCOL.md says what the two say to
-// each other. Times of its frames include the way there and back.
+// A tracker that runs as a separate program, in any language; PROTOCOL.md defines the messages. The
+// times of its frames include the communication.
 #pragma once
 
 #include <memory>
@@ -14,8 +14,8 @@ class External final : public Tracker {
   explicit External(const Settings& settings);
   ~External() override;
 
-  // Both throw RunError if the program ends, hangs or answers what it must not, ConfigError if it
-  // cannot be started.
+  // Both throw RunError if the program ends, hangs or sends an invalid answer, and ConfigError if
+  // it cannot be started.
   void Start(const Subject& subject, const PinholeCamera& camera) override;
   TrackResult TrackFrame(const DepthFrame& frame) override;
 

@@ -55,7 +55,7 @@ int ReadFailure(int pipe) {
   return count == sizeof reason ? reason : 0;
 }
 
-// What probably causes the system's reason, where that alone would mislead.
+// A likely cause, if the system's error message alone would be misleading.
 std::string LikelyCause(const fs::path& program, int reason) {
   std::error_code ignored;
   if (fs::is_directory(program, ignored)) return "; expected a file, this is a folder";

@@ -1,5 +1,5 @@
-// A program started beside this one. Its standard input and output are connected to a socket that
-// this class writes and reads; its standard error goes where ours goes.
+// A child process. Its standard input and output are connected to a socket that this class writes
+// and reads; it inherits standard error.
 #pragma once
 
 #include <chrono>

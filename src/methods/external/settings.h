@@ -1,4 +1,4 @@
-// Settings of a tracker that is a program of its own.
+// Settings of a tracker that runs as a separate program.
 #pragma once
 
 #include <filesystem>

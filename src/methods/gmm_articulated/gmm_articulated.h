@@ -1,10 +1,10 @@
-// Registration of an articulated mesh by a mixture of Gaussians, after Ye & Yang 2014, whose method
-// paper B leans on: the observed points are drawn from Gaussians about the visible vertices;
-// expectation–maximisation moves the joints. docs/baselines.md says what is sure and what is a
-// reading.
+// Registration of an articulated mesh by a mixture of Gaussians, after Ye & Yang 2014, the method
+// on which paper B builds: the observed points are samples of Gaussians about the visible vertices;
+// expectation–maximisation moves the joints. docs/baselines.md separates what the paper states from
+// interpretations.
 //
-// Departures: the subject's shape is given and not estimated; angles are anatomical and their
-// limits bounds; the prediction is a share of the last velocity.
+// Departures: the subject's shape is given and not estimated; the pose is parametrised by
+// anatomical angles with their limits as bounds; the prediction is a share of the last velocity.
 #pragma once
 
 #include "articulated/articulated_tracker.h"

@@ -1,5 +1,5 @@
 // The mixture of Ye & Yang 2014 and its E-step: every model vertex is the centre of a Gaussian of
-// one width, and a uniform share takes what none explains.
+// the same width, and a uniform component explains outliers.
 //
 //   p(x) = (1 − u) Σ_m (1/M) N(x; v_m, σ²I) + u / V
 #pragma once
@@ -14,10 +14,10 @@ namespace vitruvia::gmm_articulated {
 struct MixtureSettings {
   double outlier_share = 0.05;  // u
   double volume_m3 = 1.0;       // V
-  double reach_sigmas = 3.0;    // Gaussians end there
+  double reach_sigmas = 3.0;    // truncation radius of the Gaussians
 };
 
-// What the data are to one vertex.
+// Statistics of the data assigned to one vertex.
 struct VertexShare {
   float mass = 0.0f;                   // p_m = Σ_n p_mn
   Vector3f offset = Vector3f::Zero();  // x̄_m − v_m
@@ -32,7 +32,7 @@ class Mixture {
 
   const std::vector<VertexShare>& shares() const { return shares_; }  // of each vertex
   double mass() const { return mass_; }                               // P = Σ p_m
-  // Σ_m p_mn of each datum: below 1, the rest is the uniform share's.
+  // Σ_m p_mn of each datum; the rest to 1 belongs to the uniform component.
   std::vector<float> Explained() const;
   // σ² that maximises the expected likelihood once each vertex has moved by moves[m]:
   // Σ_m p_m (spread_m + ‖offset_m − move_m‖²) / 3P. Some vertex must have mass.
@@ -46,7 +46,7 @@ class Mixture {
 
   PointGrid data_grid_, vertex_grid_;
   std::vector<float> sums_;  // Σ_m exp(−d²/2σ²), of each datum
-  float outlier_ = 0.0f;     // c: the uniform share's part in the same units
+  float outlier_ = 0.0f;     // c: the uniform component in the same units
   std::vector<VertexShare> shares_;
   double mass_ = 0.0;
 };

@@ -17,7 +17,7 @@ MixtureTerm::MixtureTerm(const ShapedBody& body, const PinholeCamera& camera,
                          const Settings& settings)
     : body_(body), settings_(settings), view_(body, camera) {}
 
-// Outliers are as likely anywhere in the box that the points fill, and some way round it.
+// Outliers are uniformly distributed in the points' bounding box with a margin.
 void MixtureTerm::Observe(const articulated::Observation& observation) {
   constexpr float kMargin_m = 0.1f;
   observation_ = observation;
@@ -47,7 +47,7 @@ void MixtureTerm::PoseVertices(const BoneTransforms& camera_from_rest) {
   }
 }
 
-// From the last round's shares and how far the vertices have moved since.
+// Estimates σ from the shares of the last iteration and the vertices' motion since.
 void MixtureTerm::EstimateSigma() {
   if (!has_expected_ || !(mixture_.mass() > 0.0)) return;
   moves_.resize(vertices_.size());

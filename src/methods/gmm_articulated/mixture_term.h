@@ -16,7 +16,8 @@ class MixtureTerm final : public articulated::DataTerm {
   MixtureTerm(const ShapedBody& body, const PinholeCamera& camera, const Settings& settings);
 
   void Observe(const articulated::Observation& observation) override;
-  // Finds the visible vertices, of which the mixture consists until the next call, and widens σ.
+  // Finds the visible vertices, which are the mixture's centres until the next call, and resets σ
+  // to first_sigma_m.
   void Begin(const articulated::MovingBones& bones) override;
   void AddRows(const articulated::MovingBones& bones, double progress, WorkerTeam& team,
                articulated::Clock& clock, articulated::PoseSystem& system) override;

@@ -1,4 +1,4 @@
-// Points sorted into cubes, to go through those near a place in runs.
+// Points sorted into cubic cells, so that those near a place are visited in contiguous runs.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace vitruvia::gmm_articulated {
 
 class PointGrid {
  public:
-  // Cubes of cell_m, larger ones where so many would not be needed.
+  // Cells of cell_m; larger ones if there would be too many.
   void Build(const std::vector<Vector3f>& points, float cell_m);
 
   // The points in their order in the grid, coordinate by coordinate, and their old numbers.

@@ -5,8 +5,8 @@ namespace vitruvia::gmm_articulated {
 void Settings::Describe(Fields& f) {
   f.Visit(common);
   f.Number("first_sigma_m", first_sigma_m,
-           {.meaning = "standard deviation of the Gaussians in a frame's first round; the others "
-                       "estimate it, down to half of a point's deviation",
+           {.meaning = "standard deviation of the Gaussians in a frame's first iteration; later "
+                       "iterations estimate it, down to half of a point's deviation",
             .unit = "m",
             .min = 0.001,
             .max = 1,

@@ -9,9 +9,9 @@
 namespace vitruvia::realtime_scape {
 
 // Each bone's rotation is about its own centre (the weighted mean of its vertices), not about the
-// subject's origin on the floor: the energy is the same, but the steps of a head's rotation do not
-// move it by metres, so that the stopping rule's thresholds compare like with like and the
-// equations are better conditioned.
+// subject's origin on the floor: the energy is the same, but a rotation step of the head does not
+// translate it by metres, so the thresholds of the stopping rule are comparable between bones and
+// the equations are better conditioned.
 struct BonePose {
   Matrix3<double> rotation = Matrix3<double>::Identity();  // camera_from_rest
   Vector3<double> center = Vector3<double>::Zero();        // camera frame, metres
@@ -20,8 +20,8 @@ using BodyPose = std::array<BonePose, kBoneCount>;
 
 using LocalRotations = std::array<Matrix3<double>, kBoneCount>;  // parent_from_bone
 
-// a⁻¹ b. Under a linear rotation update bones have matrices that are not orthonormal; of those the
-// inverse is taken, of all others the transpose.
+// a⁻¹ b. With the linear rotation update, matrices are not orthonormal and are inverted; otherwise
+// the transpose is used.
 Matrix3<double> RelativeRotation(const Matrix3<double>& a, const Matrix3<double>& b);
 
 // R_parent⁻¹ R of every bone; the root's parent is the fixed identity.

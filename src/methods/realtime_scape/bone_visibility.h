@@ -1,4 +1,4 @@
-// How much of each bone the frames confirm, and since when they do not.
+// How much of each bone a frame confirms, and for how long a bone has not been observed.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace vitruvia::realtime_scape {
 struct BoneCounts {
   std::array<int, kBoneCount> visible{}, confirmed{};  // confirmed: V1
 
-  // Whether more than this share of what is visible of a bone is confirmed.
+  // Whether more than this share of the bone's visible vertices is confirmed.
   bool IsWellExplained(int bone, double share) const {
     return confirmed[bone] > share * visible[bone];
   }
@@ -21,13 +21,13 @@ struct BoneCounts {
 BoneCounts CountByBone(const Model& model, const std::vector<int>& visible,
                        const VertexClasses& classes);
 
-// For how many frames each bone has not been observed; 0: it was in the last one.
+// Number of frames for which each bone has not been observed; 0: it was observed in the last frame.
 struct BoneVisibility {
   std::array<int, kBoneCount> frames_unobserved{};
 };
 
-// After one more frame. A bone is observed when at least `observed_share` of all its vertices is
-// confirmed; one without vertices never is.
+// Visibility after one more frame. A bone is observed if at least `observed_share` of all its
+// vertices is confirmed; a bone without vertices is never observed.
 BoneVisibility Advanced(const BoneVisibility& before, const Model& model, const BoneCounts& counts,
                         double observed_share);
 

@@ -1,4 +1,4 @@
-// Lines 6 and 8 of algorithm 1 (paper A): which points and vertices are paired.
+// Lines 6 and 8 of algorithm 1 (paper A): correspondences of points and vertices.
 #pragma once
 
 #include <memory>
@@ -9,25 +9,27 @@
 
 namespace vitruvia::realtime_scape {
 
-// The model as it would be seen in some pose.
+// The model rendered in a pose.
 struct RenderedView {
-  const DepthImage* depth = nullptr;  // metres, 0 where the model is not
+  const DepthImage* depth = nullptr;  // metres, 0: no model at this pixel
   std::vector<int> visible;           // vertices
 };
 
-// What model and frame say of each other.
+// Classification of the model's vertices and the frame's points.
 struct Classification {
   VertexClasses classes;         // V1 and V2 of the visible vertices
   std::vector<int> unexplained;  // P2: indices of the cloud's points
   BoneCounts counts;
 };
 
-// Model vertices with which unexplained points may be paired. Paper: the visible ones. Reach: those
-// of bones that are not well explained, for the points of a well explained bone are known; and all
-// vertices that face the camera of a bone that has not been observed, for it may be what appears.
+// Model vertices with which unexplained points may be paired. PairCandidates::kVisible (paper): the
+// visible ones. kReach: the visible ones of bones that are not well explained, because the points
+// of a well explained bone are known already; and all camera-facing vertices of bones that have not
+// been observed, because such a bone may be the one that appears.
 struct VertexCandidates {
   std::vector<int> vertices;
-  std::vector<int> of_explained;  // the visible vertices of well explained bones, left out above
+  std::vector<int> of_explained;  // the visible vertices of well explained bones, which `vertices`
+                                  // does not contain
 };
 void FindVertexCandidates(const Model& model, const PosedSurface& surface,
                           const std::vector<int>& visible, const BoneCounts& counts,
@@ -43,14 +45,14 @@ class CorrespondenceFinder {
  public:
   CorrespondenceFinder(const Model& model, const PinholeCamera& camera, const Settings& settings);
 
-  // What line 8 searches in.
+  // The sets in which line 8 searches.
   struct SearchSets {
     VertexCandidates candidates;
     std::unique_ptr<NearestNeighbors> near_candidates, near_explained;
     std::vector<int> points;  // of P2, without those that belong to well explained bones
   };
 
-  // Line 6. After line 7, on whose classes the candidates depend.
+  // Line 6, run after line 7, because the candidates depend on the classes.
   const SearchSets& BuildSearchSets(const Observation& observation, const PosedSurface& surface,
                                     const RenderedView& view, const Classification& classification,
                                     const BoneVisibility& visibility);

@@ -135,8 +135,7 @@ void FitSettings::DescribeWeights(Fields& f) {
   f.Integer(
       "surface_stride", surface_stride,
       {.meaning =
-           "every how many vertices of V1 one gets a row, whose weight is multiplied by the same "
-           "number",
+           "stride of the V1 vertices that get a row; the rows' weight is multiplied by the stride",
        .min = 1,
        .max = 64,
        .origin = Origin::kPaper,
@@ -160,7 +159,8 @@ void FitSettings::DescribeWeights(Fields& f) {
          .origin = Origin::kGuessed,
          .source = "paper A is silent"});
   }
-  f.Section("noise", noise, {.meaning = "expected deviations, by which rows are weighed"});
+  f.Section("noise", noise,
+            {.meaning = "expected standard deviations, which determine the rows' weights"});
   f.Section("free_space", free_space, {.meaning = "visible vertices where nothing is measured"});
 }
 
@@ -185,13 +185,15 @@ void FreeSpaceSettings::Describe(Fields& f) {
              .max = 64,
              .origin = Origin::kGuessed,
              .source = "edges lose their measurements"});
-  f.Number("reach_m", reach_m,
-           {.meaning = "how far across the line of sight the edge of free space is sought",
-            .unit = "m",
-            .min = 0.01,
-            .max = 2,
-            .origin = Origin::kGuessed,
-            .source = "a limb that is farther off is not where it is sought"});
+  f.Number(
+      "reach_m", reach_m,
+      {.meaning =
+           "maximum distance across the line of sight at which the edge of free space is searched",
+       .unit = "m",
+       .min = 0.01,
+       .max = 2,
+       .origin = Origin::kGuessed,
+       .source = "a limb that is farther off is not where it is sought"});
 }
 
 void SearchSettings::Describe(Fields& f) {

@@ -31,7 +31,7 @@ Segment AxisOf(const Model& model, const BodyPose& pose, BoneId bone_id) {
           Posed(model, pose, bone, model.skeleton.tips[bone])};
 }
 
-// The rotation that turns the rest pose's `along` to `to` and its `hinge` as near as it gets to
+// The rotation that maps the rest pose's `along` to `to` and its `hinge` as closely as possible to
 // `hinge_to`.
 Matrix3<double> Aligned(const Vector3d& along, const Vector3d& hinge, const Vector3d& to,
                         const Vector3d& hinge_to) {

@@ -1,4 +1,4 @@
-// Finds a limb again that has moved away from where the tracker expects it.
+// Finds a limb that has moved away from its predicted place.
 #pragma once
 
 #include <optional>
@@ -11,15 +11,15 @@ namespace vitruvia::realtime_scape {
 // The two bones of an arm or leg and the one that hangs from them.
 struct Limb {
   BoneId upper, lower, end;
-  // In the rest pose: the hinge between upper and lower bone, about which it bends by a positive
-  // angle.
+  // Axis of the hinge between upper and lower bone, rest pose; the limb bends by a positive angle
+  // about it.
   Vector3d hinge;
 };
 const std::array<Limb, 4>& Limbs();
 
-// The pose with the limb's lower end (wrist, ankle) at `target` (camera frame), or as near as it
-// reaches, and bent the way that its hinge bends. `swivel_rad` turns the limb about the line from
-// its root to the target.
+// The pose with the limb's lower end (wrist, ankle) at `target` (camera frame), or as near to it as
+// the limb reaches, bent in the direction of its hinge. `swivel_rad` turns the limb about the line
+// from its root to the target.
 BodyPose WithLimbAt(const Model& model, const BodyPose& pose, const Limb& limb,
                     const Vector3d& target, double swivel_rad);
 
@@ -27,9 +27,9 @@ class LimbFinder {
  public:
   LimbFinder(const Model& model, const PinholeCamera& camera, const Settings& settings);
 
-  // Where the frame shows enough that `current` does not explain (`unexplained`, indices of the
-  // cloud's points): hypotheses put the end of each limb on unexplained points, are scored by their
-  // bones' axes, and the best are refined. Nothing if none of them is clearly better.
+  // If enough of the frame is not explained by `current` (`unexplained`: indices of the cloud's
+  // points), hypotheses place the end of each limb on unexplained points and are scored by their
+  // bones' axes; the best ones are refined. Nothing if none of them is clearly better.
   std::optional<FitSummary> Search(const Observation& observation, const FitSummary& current,
                                    const std::vector<int>& unexplained);
 

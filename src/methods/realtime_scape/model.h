@@ -1,4 +1,4 @@
-// What Realtime SCAPE needs of a subject, and its surface in a pose.
+// The subject's model in Realtime SCAPE, and its surface in a pose.
 #pragma once
 
 #include <array>

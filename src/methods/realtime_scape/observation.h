@@ -1,4 +1,4 @@
-// Line 2 of algorithm 1 (paper A): what a frame shows, as points P with a search structure.
+// Line 2 of algorithm 1 (paper A): the frame's points P with a search structure.
 #pragma once
 
 #include <memory>

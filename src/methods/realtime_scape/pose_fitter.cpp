@@ -95,7 +95,7 @@ Vector3d PoseFitter::VisibleCentroid(const BodyPose& pose) {
   return sum / static_cast<double>(view.visible.size());
 }
 
-// The end of line 11, and what precedes line 5.
+// The end of line 11, before line 5.
 const PosedSurface& PoseFitter::Pose(const BodyPose& pose) {
   PoseSurface(model_, pose, surface_);
   clock_.Lap(Step::kUpdate);
@@ -170,7 +170,7 @@ PoseFitter::Solution PoseFitter::Solve(const BlockNormalEquations& equations) {
   return {increment_, status};
 }
 
-// By what share of itself a step raised the energy, its correspondences kept.
+// Relative increase of the energy in a step, at fixed correspondences.
 double PoseFitter::EnergyRise(const BlockNormalEquations& before, const TermInput& after) {
   equations_after_.Reset();
   AddEnergyTerms(after, equations_after_);
@@ -178,7 +178,7 @@ double PoseFitter::EnergyRise(const BlockNormalEquations& before, const TermInpu
   return before.energy() > 0.0 ? equations_after_.energy() / before.energy() - 1.0 : 0.0;
 }
 
-// Rows are in units of length; joints move with their own bone alone.
+// Rows are in units of length_unit_m; a joint moves only with its own bone.
 std::vector<Matrix3<double>> PoseFitter::JointUnitCovariances(const BodyPose& pose) const {
   if (!std::isfinite(equations_.energy())) return {};
   const std::vector<Vector3d> joints = PosedJoints(model_.skeleton, ToTransforms(model_, pose));

@@ -27,14 +27,14 @@ struct FitSummary {
   BoneCounts counts;
   Energies energies{};      // at the last linearisation
   double energy_rise = -1;  // see TrackResult
-  double condition = -1;    // of the last normal equations; -1 where not estimated
-  // Of the last normal equations (tracking/joint_uncertainty.h); empty where not asked for.
+  double condition = -1;    // of the last normal equations; -1 if not estimated
+  // Of the last normal equations (tracking/joint_uncertainty.h); empty if not requested.
   std::vector<Matrix3<double>> unit_covariances;
-  std::optional<SystemCheck> check;  // of the last step, where energies are watched
+  std::optional<SystemCheck> check;  // of the last step, if solver.watch_energy is set
   int iterations = 0;
-  int inexact_steps = 0;   // that conjugate gradients did not solve to their tolerance
+  int inexact_steps = 0;   // steps that conjugate gradients did not solve to their tolerance
   bool converged = false;  // the stopping rule was met
-  bool solved = true;      // otherwise `pose` is that of the last frame
+  bool solved = true;      // false: `pose` is that of the last frame
   StepTimes<RealtimeScapeStep> times;
 };
 
@@ -44,8 +44,8 @@ struct PoseCheck {
   BoneCounts counts;
 };
 
-// Fits the pose of one model, step by step; what a step returns stays valid until it is called
-// again. Nothing but buffers is kept from one call of Fit to the next.
+// Fits the pose of one model, step by step; a step's result stays valid until the step's next call.
+// Only buffers are kept between calls of Fit.
 class PoseFitter {
  public:
   // `model` must outlive the fitter.

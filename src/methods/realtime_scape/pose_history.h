@@ -1,4 +1,4 @@
-// What Realtime SCAPE carries from frame to frame.
+// The state that Realtime SCAPE keeps between frames.
 #pragma once
 
 #include "methods/realtime_scape/bone_visibility.h"
@@ -6,11 +6,11 @@
 namespace vitruvia::realtime_scape {
 
 struct PoseHistory {
-  BodyPose last, before_last;  // after the last frame and the one before
+  BodyPose last, before_last;  // poses of the last frame and of the frame before it
   BoneVisibility visibility;
 };
 
-// Of a body that has been in this pose, with every bone observed.
+// History of a body at rest in this pose, with every bone observed.
 inline PoseHistory AtRest(const BodyPose& pose) { return {pose, pose, {}}; }
 
 // After a frame that ended in `pose`.

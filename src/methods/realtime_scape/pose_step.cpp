@@ -33,7 +33,7 @@ Matrix3<double> ApplyRotationIncrement(const Matrix3<double>& rotation, const Ve
     case RotationUpdate::kExponential:
       break;
   }
-  // Made orthonormal, or the rounding errors of many steps would add up.
+  // Orthonormalised, so that rounding errors do not accumulate over many steps.
   return NearestRotation<double>(ExpSo3<double>(increment) * rotation);
 }
 

@@ -22,8 +22,8 @@ PoseStep ApplyIncrement(const BodyPose& pose, const Eigen::VectorXd& increment,
 Matrix3<double> ApplyRotationIncrement(const Matrix3<double>& rotation,
                                        const Vector3<double>& increment, RotationUpdate update);
 
-// Whether a bone's matrix is farther from any rotation than a linear update takes it in one frame,
-// or a bone has left the range of every depth camera.
+// Whether a bone's matrix is farther from any rotation than a linear update can move it in one
+// frame, or a bone has left the range of any depth camera.
 bool HasDiverged(const BodyPose& pose);
 
 }  // namespace vitruvia::realtime_scape

@@ -16,7 +16,7 @@ class RealtimeScape final : public Tracker {
   explicit RealtimeScape(const Settings& settings);
   ~RealtimeScape() override;
 
-  // Throws std::invalid_argument if the subject's weights do not fit its vertices and the bones.
+  // Throws std::invalid_argument if the subject's weights do not match its vertices and the bones.
   void Start(const Subject& subject, const PinholeCamera& camera) override;
   TrackResult TrackFrame(const DepthFrame& frame) override;
 

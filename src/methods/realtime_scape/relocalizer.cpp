@@ -68,7 +68,7 @@ std::vector<Vector3d> Relocalizer::Centers(const PointCloud& cloud) const {
   return centers;
 }
 
-// Moves the pose so that the centroid of its visible vertices lies there.
+// Translates the pose so that the centroid of its visible vertices lies at `center`.
 BodyPose Relocalizer::AlignCentroid(const Vector3d& center, BodyPose pose) {
   constexpr int kRounds = 2;  // moving the body changes what is visible of it
   for (int round = 0; round < kRounds; ++round) {

@@ -3,13 +3,14 @@
 namespace vitruvia::realtime_scape {
 
 void CloudSettings::Describe(Fields& f) {
-  f.Integer("stride", stride,
-            {.meaning = "every how many columns and rows a pixel becomes a point of the cloud P",
-             .unit = "px",
-             .min = 1,
-             .max = 16,
-             .origin = Origin::kPaper,
-             .source = "paper A, sec. 6.2: half resolution"});
+  f.Integer(
+      "stride", stride,
+      {.meaning = "stride in columns and rows of the pixels that become points of the cloud P",
+       .unit = "px",
+       .min = 1,
+       .max = 16,
+       .origin = Origin::kPaper,
+       .source = "paper A, sec. 6.2: half resolution"});
   f.Number("max_depth_m", max_depth_m,
            {.meaning = "pixels with a larger depth are not measurements of the subject",
             .unit = "m",
@@ -23,14 +24,15 @@ void MotionSettings::Describe(Fields& f) {
   f.Choice("model", model,
            {{"constant_rotation", MotionModel::kConstantRotation},
             {"constant_velocity", MotionModel::kConstantVelocity}},
-           {.meaning = "motion model that predicts the pose in which a frame starts and the local "
-                       "rotations that inertia holds on to",
+           {.meaning = "motion model that predicts the initial pose of a frame and the reference "
+                       "rotations of the inertia term",
             .origin = Origin::kTuned,
             .source = "paper A: constant_rotation"});
   if (!f.Applies(model == MotionModel::kConstantVelocity)) return;
   f.Number(
       "velocity_share", velocity_share,
-      {.meaning = "share of the last frame's velocity that the motion model expects again",
+      {.meaning =
+           "share of the last frame's velocity that the motion model predicts for the next frame",
        .min = 0,
        .max = 1,
        .origin = Origin::kTuned,
@@ -48,8 +50,8 @@ void MotionSettings::Describe(Fields& f) {
 void LimbSettings::Describe(Fields& f) {
   constexpr const char* kSource = "paper A lists recovery as future work";
   f.Number("min_unexplained_m2", min_unexplained_m2,
-           {.meaning = "area of the captured surface that the model does not explain from which on "
-                       "a limb is searched there; 0: never",
+           {.meaning = "area of the captured surface without explanation by the model above which "
+                       "limbs are searched there; 0: never",
             .unit = "m²",
             .min = 0,
             .max = 10,
@@ -57,9 +59,8 @@ void LimbSettings::Describe(Fields& f) {
             .source = kSource});
   if (!f.Applies(min_unexplained_m2 > 0.0)) return;
   f.Number("margin", margin,
-           {.meaning = "a limb that was searched and found is moved only if the score (explained "
-                       "share of the cloud times confirmed share of the model) rises by at least "
-                       "this much",
+           {.meaning = "a found limb is moved only if the score (explained share of the cloud "
+                       "times confirmed share of the model) rises by at least this much",
             .min = 0,
             .max = 1,
             .origin = Origin::kGuessed,
@@ -108,8 +109,8 @@ void StoppingSettings::Describe(Fields& f) {
             .source = "paper A, sec. 6.2: ε₂ = 0.025; see rotation_step_deg"});
   f.Number(
       "energy_decrease", energy_decrease,
-      {.meaning = "iterations stop when the linearised energy promises to fall by less than this "
-                  "share of itself, which under noise is not worth a step; 0: never",
+      {.meaning = "iterations stop when the predicted decrease of the linearised energy is less "
+                  "than this share of the energy, which is below the effect of noise; 0: never",
        .min = 0,
        .max = 1,
        .origin = Origin::kTuned,
@@ -176,8 +177,8 @@ void SolverSettings::Describe(Fields& f) {
        .source = "keeps the system regular when nothing at all is seen"});
   f.Flag("watch_energy", watch_energy,
          {.meaning = "evaluates the energy a second time after each step, with the same "
-                     "correspondences, and reports the largest rise; holds each frame's last step "
-                     "against a slow solution of the same equations"});
+                     "correspondences, and reports the largest rise; compares each frame's last "
+                     "step with a reference solution of the same equations"});
 }
 
 void Settings::Describe(Fields& f) {
@@ -205,7 +206,9 @@ void Settings::Describe(Fields& f) {
   }
   f.Section("limbs", limbs, {.meaning = "search for limbs that moved away from the model"});
   f.Section("recovery", recovery, {.meaning = "detection of a lost subject and relocalisation"});
-  f.Section("watch", watch, {.meaning = "areas that model and frame do not account for"});
+  f.Section(
+      "watch", watch,
+      {.meaning = "detection of a lost subject by the areas in which model and frame disagree"});
   f.Section("uncertainty", uncertainty,
             {.meaning = "covariances of the joints, from the normal equations"});
   f.Number(

@@ -18,7 +18,7 @@ namespace vitruvia::realtime_scape {
 
 // The residual of a visible vertex near the captured surface (V1).
 enum class SurfaceResidual {
-  kDepth,  // paper: the difference in depth, as if the captured depth were the same at all pixels
+  kDepth,  // paper: the difference in depth, with the captured depth treated as constant
   kPlane,  // ours: the distance from the captured point along the model's normal, so that the
            // vertex may slide
 };
@@ -32,31 +32,32 @@ enum class PairResidual {
 // How the influence of a large residual is reduced.
 enum class RobustKernel { kNone, kHuber, kTukey };
 
-// Which vertices an unexplained point (P2) may be paired with.
+// Vertices with which an unexplained point (P2) may be paired.
 enum class PairCandidates {
   kVisible,  // paper: the visible ones
-  kReach,  // ours: those of bones that are not well explained, also unobserved ones, with a search
-           // radius that grows while they are not observed
+  kReach,    // not in the paper: those of bones that are not well explained, including unobserved
+             // bones, with a search radius that grows while a bone is unobserved
 };
 
 // How a rotation is updated by the solved increment r.
 enum class RotationUpdate {
-  kLinear,  // paper, to the letter: R ← (I + r̂) R, which is not a rotation and grows without bound
+  kLinear,  // paper, literally: R ← (I + r̂) R, which is not a rotation and grows without bound
   kLinearOrthonormal,  // paper, intended reading: the rotation nearest to that
   kExponential,        // ours: R ← exp(r̂) R
 };
 
-// The pose in which a frame starts, and the local rotations that inertia holds on to.
+// The initial pose of a frame, and the reference rotations of the inertia term.
 enum class MotionModel {
   kConstantRotation,  // paper: the last frame's pose and local rotations
   kConstantVelocity,  // ours: joints keep their angular velocity
 };
 
-// What holds two neighbouring bones together.
+// The residuals that hold two neighbouring bones together.
 enum class JointRows {
   kJointPosition,  // ours: the joint as the subject's skeleton has it, 3 rows
-  kMeanPoint,    // paper's count of rows (3 for a joint): the vertices' weighted mean on both bones
-  kAllVertices,  // eq. 7 as printed: every shared vertex, exactly, through their moments
+  kMeanPoint,      // number of rows as in the paper (3 per joint): the vertices' weighted mean on
+                   // both bones
+  kAllVertices,    // eq. 7 as printed: every shared vertex, exactly, through their moments
 };
 
 struct CloudSettings {
@@ -65,14 +66,14 @@ struct CloudSettings {
   void Describe(Fields& fields);
 };
 
-// What is expected of a residual: a row weighs 1 / (1 + σ_sensor² / σ_model²).
+// Noise model of a residual: a row's weight is 1 / (1 + σ_sensor² / σ_model²).
 struct NoiseSettings {
   DepthNoise sensor;
   double model_deviation_m = 0.005;  // metres
   void Describe(Fields& fields);
 };
 
-// Visible vertices where the frame shows that nothing is (terms/free_space_term.h).
+// Visible vertices in observed free space (terms/free_space_term.h).
 struct FreeSpaceSettings {
   int margin_px = 2;
   double reach_m = 0.3;  // metres

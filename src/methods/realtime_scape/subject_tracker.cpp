@@ -56,7 +56,7 @@ TrackResult SubjectTracker::TrackFrame(const DepthFrame& frame) {
   return Result(std::move(fit), std::move(ending));
 }
 
-// Nothing if the subject was searched for and not found.
+// Nothing if a search does not find the subject.
 std::optional<PoseHistory> SubjectTracker::FirstPose(const Observation& observation,
                                                      const KnownJoints& known) {
   if (!start_search_) return Place(observation.cloud);
@@ -76,7 +76,7 @@ PoseHistory SubjectTracker::Place(const PointCloud& cloud) const {
   return AtRest(RestPose(model_, camera_from_subject));
 }
 
-// What a search for a limb takes is the same step of the frame as relocalisation.
+// The time of a limb search is charged to the same step as relocalisation.
 FitSummary SubjectTracker::TakeFoundLimb(const Observation& observation, FitSummary fit) {
   if (!limb_finder_) return fit;
   std::optional<FitSummary> found = limb_finder_->Search(observation, fit, fitter_.unexplained());
@@ -88,13 +88,14 @@ FitSummary SubjectTracker::TakeFoundLimb(const Observation& observation, FitSumm
 }
 
 // Searches other poses when agreement has been low for long enough, or when another body may be the
-// subject. What a search finds replaces the fit, but for its times: all that a search takes is one
+// subject. The result of a search replaces the fit except for its times: the whole search is one
 // step of the frame.
 FitSummary SubjectTracker::TakeBetterPose(const Observation& observation, FitSummary fit,
                                           bool is_first) {
   const FrameVerdict verdict = loss_detector_.Assess(fit.agreement);
   if (watch_) watch_->verdict.Assess(MeasureAreas(observation, fit));
-  // A first fit to something else is no pose to start a search from, but the rest pose is.
+  // If the first fit was to another object, its pose is useless for a search, so the rest pose is
+  // remembered.
   if (is_first && watch_) relocalizer_.Remember(history_->last);
   const bool is_doubted = watch_ && watch_->verdict.is_lost();
   if (is_first || (verdict == FrameVerdict::kAgrees && !is_doubted))
@@ -112,7 +113,7 @@ FitSummary SubjectTracker::TakeBetterPose(const Observation& observation, FitSum
   return *std::move(found);
 }
 
-// A pose out of the current one's reach, if it looks more like the subject.
+// A pose out of the current one's reach, if it overlaps better with the frame.
 std::optional<FitSummary> SubjectTracker::FindElsewhere(const Observation& observation,
                                                         const FitSummary& fit) {
   std::optional<FitSummary> found =
@@ -129,8 +130,8 @@ BodyAreas SubjectTracker::MeasureAreas(const Observation& observation, const Fit
                                *observation.depth, NearnessOf(settings_.fit));
 }
 
-// A frame that cannot be fitted: the pose stays; before the first one that can it is the rest pose
-// at the camera.
+// Result of a frame that cannot be fitted: the last pose, or the rest pose at the camera if no
+// frame was fitted before.
 TrackResult SubjectTracker::CarryOver(Ending ending) {
   loss_detector_.NoteEmptyFrame();
   FitSummary fit;

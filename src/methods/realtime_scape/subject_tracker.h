@@ -33,7 +33,7 @@ class SubjectTracker {
   Ending EndingOf(const FitSummary& fit) const;
   TrackResult Result(FitSummary fit, Ending ending) const;
 
-  // What watches the areas, if the settings ask for it.
+  // Monitoring of areas, if enabled in the settings.
   struct Watch {
     BodyAreaMeter meter;
     AreaWatch verdict;
@@ -46,7 +46,7 @@ class SubjectTracker {
   Model model_;
   Observer observer_;
   PoseFitter fitter_;
-  std::optional<LimbFinder> limb_finder_;  // if the settings ask for it
+  std::optional<LimbFinder> limb_finder_;  // if enabled in the settings
   Relocalizer relocalizer_;
   LossDetector loss_detector_;
   std::optional<Watch> watch_;

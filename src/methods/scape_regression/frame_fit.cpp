@@ -56,7 +56,7 @@ class RowSum {
   int count_ = 0;
 };
 
-// Three rows of a joint's turn, which its bone and the parent bring about the opposite way.
+// Three rows of a joint's rotation; its bone and the parent enter with opposite signs.
 void AddTurn(int bone, double weight, const Vector3d& residual, const Matrix3<double>& by_own,
              RowSum& sum) {
   for (int k = 0; k < 3; ++k) {

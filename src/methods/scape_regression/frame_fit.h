@@ -27,7 +27,7 @@ struct NormalEquations {
 };
 
 // E = mean ρ(depth) + weight · (mean ρ(contours one way) + mean ρ(the other way)) + change of the
-// pose since the last frame + how unusual it is (body/pose_statistics.h).
+// pose since the last frame + deviation of the pose from captured poses (body/pose_statistics.h).
 class FrameEnergy {
  public:
   FrameEnergy(const ScapeBody& body, const PinholeCamera& camera, const Settings& settings)
@@ -35,7 +35,7 @@ class FrameEnergy {
 
   Energies Of(const Pairs& pairs, const std::vector<Vector3f>& vertices, const ScapePose& pose,
               const ScapePose& last, double kernel_m) const;
-  // Gauss–Newton, the kernel by weights: gradient is half the energy's.
+  // Gauss–Newton with the kernel applied as weights; `gradient` is half the gradient of the energy.
   NormalEquations Linearized(const Pairs& pairs, const std::vector<Vector3f>& vertices,
                              const ScapePose& pose, const ScapePose& last, double kernel_m) const;
 

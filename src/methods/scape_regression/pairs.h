@@ -1,4 +1,4 @@
-// What holds the model to a frame: depths of its visible vertices, and the contours of both.
+// Correspondences of model and frame: depths of visible vertices, and points of both contours.
 #pragma once
 
 #include <array>
@@ -21,8 +21,8 @@ struct DepthPair {
   Vector3d along;   // a
 };
 
-// The distance between contours across the model's, in metres at the vertex's depth:
-// (z / f) n · (π(v) − pixel), z and n as they were when the pair was made.
+// The distance between contours across the model's, in metres at the vertex's depth: (z / f) n ·
+// (π(v) − pixel), with z and n fixed when the pair is found.
 struct ContourPair {
   int vertex;
   Eigen::Vector2d pixel;   // of the observed contour
@@ -38,11 +38,11 @@ struct Pairs {
 
 double Residual(const DepthPair& pair, const Vector3d& vertex);
 double Residual(const ContourPair& pair, const PinholeCamera& camera, const Vector3d& vertex);
-// Their derivatives by the vertex.
+// Derivatives of the residuals with respect to the vertex.
 const Vector3d& Gradient(const DepthPair& pair);
 Vector3d Gradient(const ContourPair& pair, const PinholeCamera& camera, const Vector3d& vertex);
 
-// Where pixels with a measurement meet pixels without one, inside the image: halfway between them.
+// Points halfway between neighbouring pixels with and without a measurement, inside the image.
 std::vector<Eigen::Vector2d> ObservedContour(const DepthImage& depth, double max_depth_m);
 
 class PairFinder {

@@ -151,7 +151,7 @@ ScapePose ScapeBody::RestPose(const Rigidd& camera_from_subject) const {
   return pose;
 }
 
-// The mean follows from the pelvis: the surface is put where its part is.
+// The mean follows from the pelvis: the surface is placed so that its pelvis part matches.
 ScapePose ScapeBody::PoseOf(const BoneTransforms& camera_from_rest) const {
   ScapePose pose;
   for (int b = 0; b < kBoneCount; ++b) pose.rotations[b] = camera_from_rest[b].rotation;

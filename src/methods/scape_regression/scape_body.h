@@ -1,13 +1,12 @@
-// A subject's surface by SCAPE (paper A, eq. 1) with pose-dependent deformations by regression, and
-// how its vertices move with the pose.
+// A subject's surface by SCAPE (paper A, eq. 1) with regressed pose-dependent deformations, and the
+// derivatives of its vertices with respect to the pose.
 //
 // The surface whose edges come nearest to R_part Q_k(Δr) ê_k. Both the mesh solve and Q are linear,
 // so the solve is done once: with f_0 = 1 and f_m the components of the rotation vectors Δr,
 //   v_i = c + Σ_part R_part Σ_m f_m P_part,m,i ,
-// P_part,m the solution for the deformations C_m of that part's triangles alone. c, where the
-// vertices' mean is, and a rotation for each part are the pose: nothing but the surface holds the
-// parts together. The intrinsic shape is the subject's mesh itself, so S of Weiss et al. is the
-// identity.
+// P_part,m the solution for the deformations C_m of that part's triangles alone. The pose consists
+// of the vertices' mean c and a rotation for each part; only the surface holds the parts together.
+// The intrinsic shape is the subject's mesh itself, so S of Weiss et al. is the identity.
 #pragma once
 
 #include <array>
@@ -31,7 +30,7 @@ class ScapeBody {
   static constexpr int kParameters = 3 + 3 * kBoneCount;
   using Row = Eigen::Matrix<double, 1, kParameters>;
 
-  // `regression` is of the subject's own triangles. DataError if the mesh falls apart.
+  // `regression` must belong to the subject's triangles. DataError if the mesh is not connected.
   ScapeBody(const BodyModel& subject, const PoseRegression& regression);
 
   std::size_t vertex_count() const { return rest_.size(); }
@@ -40,7 +39,7 @@ class ScapeBody {
   // The surface in a pose, camera frame, metres.
   void Vertices(const ScapePose& pose, std::vector<Vector3f>& vertices) const;
 
-  // What derivatives at a pose have in common.
+  // Intermediate results shared by the derivatives at a pose.
   struct Linearization {
     std::array<Matrix3<double>, kBoneCount> rotations;
     std::array<Vector3d, kBoneCount> turns;               // Δr
@@ -55,7 +54,7 @@ class ScapeBody {
   ScapePose PoseOf(const BoneTransforms& camera_from_rest) const;
 
   // The rigid motion of each part's vertices from the rest pose, and the joints between them: the
-  // mean of where a part and its parent have the joint.
+  // mean of the joint's places under a part and its parent.
   BoneTransforms PartMotions(const std::vector<Vector3f>& vertices) const;
   std::vector<Vector3d> Joints(const BoneTransforms& part_motions) const;
 

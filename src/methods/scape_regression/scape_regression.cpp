@@ -21,7 +21,7 @@ PoseRegression Read(const std::filesystem::path& folder) {
   return ReadPoseRegression(folder);
 }
 
-// The pose that goes on from `last` by a share of the motion since `before`.
+// Predicts the next pose by a share of the motion from `before` to `last`.
 ScapePose Predicted(const ScapePose& before, const ScapePose& last, double share) {
   ScapePose pose = last;
   pose.center += share * (last.center - before.center);
@@ -118,7 +118,7 @@ TrackResult ScapeRegression::TrackFrame(const DepthFrame& frame) {
   return result;
 }
 
-// Nothing if the subject was searched for and not found.
+// Nothing if a search does not find the subject.
 std::optional<ScapePose> ScapeRegression::FirstPose(const DepthFrame& frame,
                                                     const PointCloud& cloud) {
   Session& s = *session_;

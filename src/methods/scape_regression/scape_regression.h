@@ -1,9 +1,9 @@
 // SCAPE with pose-dependent deformations by regression, fitted to each frame's depth and contour
-// (Weiss, Hirshberg & Black, ICCV 2011): what paper A's figure 8 compares with. Offline: about an
-// hour for a pose there.
+// (Weiss, Hirshberg & Black, ICCV 2011), with which paper A's figure 8 compares. Offline: about an
+// hour per pose in that paper.
 //
 // As in that figure the intrinsic shape is given: it is the subject's mesh. One view for each pose.
-// docs/baseline_models.md says what is sure of this and what is a reading.
+// docs/baseline_models.md separates what the paper states from interpretations.
 #pragma once
 
 #include <memory>

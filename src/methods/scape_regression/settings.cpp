@@ -28,35 +28,34 @@ void ContourTermSettings::Describe(Fields& f) {
             .origin = Origin::kGuessed,
             .source = "Weiss et al. 2011, the body of which was not at hand"});
   f.Number("cutoff_m", cutoff_m,
-           {.meaning = "points of the two contours farther from each other than this are no pair",
+           {.meaning = "largest distance between paired points of the two contours",
             .unit = "m",
             .min = 1e-3,
             .max = 10.0,
             .origin = Origin::kGuessed});
   f.Integer("stride", stride,
-            {.meaning = "one of that many points of the observed contour is used",
+            {.meaning = "stride of the points of the observed contour that are used",
              .min = 1,
              .max = 100,
              .origin = Origin::kGuessed});
-  f.Integer(
-      "margin_px", margin_px,
-      {.meaning = "a vertex where the surface turns away is on the contour if the model leaves "
-                  "a pixel within this distance empty",
-       .unit = "px",
-       .min = 1,
-       .max = 50,
-       .origin = Origin::kGuessed});
+  f.Integer("margin_px", margin_px,
+            {.meaning = "a vertex at a fold between front and back faces is on the contour if the "
+                        "rendered model has an empty pixel within this distance",
+             .unit = "px",
+             .min = 1,
+             .max = 50,
+             .origin = Origin::kGuessed});
 }
 
 void FitSettings::Describe(Fields& f) {
   f.Integer("iterations", iterations,
-            {.meaning = "steps for a frame at most",
+            {.meaning = "maximum number of steps for a frame",
              .min = 0,
              .max = 10000,
              .origin = Origin::kGuessed,
              .source = "Weiss et al. 2011 take about an hour for a pose (paper A)"});
   f.Integer("first_frame_iterations", first_frame_iterations,
-            {.meaning = "steps for the first frame at most",
+            {.meaning = "maximum number of steps for the first frame",
              .min = 0,
              .max = 10000,
              .origin = Origin::kGuessed});
@@ -66,37 +65,35 @@ void FitSettings::Describe(Fields& f) {
             .min = 1e-3,
             .max = 10.0,
             .origin = Origin::kGuessed});
-  f.Number(
-      "last_kernel_m", last_kernel_m,
-      {.meaning = "scale of the Geman–McClure kernel from the middle of a frame's steps on; until "
-                  "then it falls by the same factor each time",
-       .unit = "m",
-       .min = 1e-3,
-       .max = 10.0,
-       .origin = Origin::kGuessed});
+  f.Number("last_kernel_m", last_kernel_m,
+           {.meaning = "scale of the Geman–McClure kernel in the second half of a frame's steps; "
+                       "in the first half it falls geometrically",
+            .unit = "m",
+            .min = 1e-3,
+            .max = 10.0,
+            .origin = Origin::kGuessed});
   f.Number("pose_change_weight", pose_change_weight,
-           {.meaning = "weight of a joint's turn of 0.1 rad since the last frame, against a mean "
-                       "squared residual of 1 mm²",
+           {.meaning = "weight of a joint's rotation by 0.1 rad since the last frame, relative to "
+                       "a mean squared residual of 1 mm²",
             .min = 0.0,
             .max = 1e6,
             .origin = Origin::kGuessed});
   f.Number("pose_weight", pose_weight,
-           {.meaning = "weight of a joint's turn of one standard deviation of captured motion away "
-                       "from its mean, against a mean squared residual of 1 mm²",
+           {.meaning = "weight of a joint's rotation by one standard deviation of captured motion "
+                       "from its mean, relative to a mean squared residual of 1 mm²",
             .min = 0.0,
             .max = 1e6,
             .origin = Origin::kGuessed,
             .source = "Weiss et al. 2011 have a prior on pose; recalled, its form is open"});
   f.Number("prediction", prediction,
-           {.meaning =
-                "share of the last frame's motion that a frame begins with, unless that frame was "
-                "lost",
+           {.meaning = "share of the last frame's motion that is predicted for the next frame, "
+                       "unless the last frame was lost",
             .min = 0.0,
             .max = 1.0,
             .origin = Origin::kGuessed,
             .source = "Weiss et al. 2011 fit single poses; as the other methods"});
   f.Number("stop_rad", stop_rad,
-           {.meaning = "stop when every part turned by less in a step",
+           {.meaning = "iterations stop when every part rotated by less in a step",
             .unit = "rad",
             .min = 0.0,
             .max = 1.0,
@@ -129,18 +126,17 @@ void Settings::Describe(Fields& f) {
     f.Section("start_search", start_search, {.meaning = "search for the first pose"});
   }
   f.Number("max_depth_m", max_depth_m,
-           {.meaning = "pixels beyond this are no measurement",
+           {.meaning = "pixels with a larger depth are not measurements of the subject",
             .unit = "m",
             .min = 0.1,
             .max = 100.0,
             .origin = Origin::kGuessed});
-  f.Number(
-      "lost_below", lost_below,
-      {.meaning = "lost if a smaller share of the visible vertices lies within the last kernel "
-                  "of the depth",
-       .min = 0.0,
-       .max = 1.0,
-       .origin = Origin::kGuessed});
+  f.Number("lost_below", lost_below,
+           {.meaning = "a frame is lost if a smaller share of the visible vertices lies within the "
+                       "last kernel's scale of the observed depth",
+            .min = 0.0,
+            .max = 1.0,
+            .origin = Origin::kGuessed});
 }
 
 }  // namespace vitruvia::scape_regression

@@ -15,7 +15,7 @@ class DistanceField {
 
   struct Sample {
     float distance_m;   // negative inside
-    Vector3f gradient;  // of the trilinear interpolation: about of unit length, not quite
+    Vector3f gradient;  // of the trilinear interpolation: approximately of unit length
   };
   bool Covers(const Vector3f& x) const {
     const Vector3f cell = (x - origin_) * inverse_cell_;

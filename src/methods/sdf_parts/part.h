@@ -7,8 +7,8 @@
 
 namespace vitruvia::sdf_parts {
 
-// The skin that a bone carries, and lids where it was cut from its neighbours. Rest pose, subject
-// frame, metres; closed and oriented outwards.
+// The part of the skin that belongs to a bone, with caps where it was cut from its neighbours. Rest
+// pose, subject frame, metres; closed and oriented outwards.
 struct Part {
   int bone = 0;
   TriangleMesh mesh;

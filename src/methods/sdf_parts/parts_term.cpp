@@ -134,7 +134,7 @@ double PartsTerm::PointWeight(double depth_m) const {
   return settings_.common.data.RowWeight(observation_.cloud->points.size(), depth_m);
 }
 
-// The point stays and the part moves: hence the minus.
+// The minus arises because the point is fixed and the part moves.
 void PartsTerm::AddObservedRows(PoseSystem& system) const {
   const std::vector<Vector3f>& points = observation_.cloud->points;
   for (std::size_t i = 0; i < nearest_.size(); ++i) {
@@ -147,7 +147,7 @@ void PartsTerm::AddObservedRows(PoseSystem& system) const {
   }
 }
 
-// What the prediction is away from occupied space.
+// Rows of the predicted points' distances from occupied space.
 void PartsTerm::AddPredictedRows(PoseSystem& system) const {
   const std::vector<Vector3f>& points = observation_.cloud->points;
   const double stride =

@@ -39,7 +39,7 @@ class PartsTerm final : public articulated::DataTerm {
   std::vector<Part> parts_;
   PosedParts posed_;
   std::vector<Sample> samples_;
-  double sample_area_m2_ = 0.0;  // that a sample stands for
+  double sample_area_m2_ = 0.0;  // surface area per sample
   std::unique_ptr<MeshRasterizer> rasterizer_;
   std::unique_ptr<NearestNeighbors> near_cloud_;
   double observed_energy_ = 0.0, predicted_energy_ = 0.0, intersection_energy_ = 0.0;

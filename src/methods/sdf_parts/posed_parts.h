@@ -24,7 +24,7 @@ class PosedParts {
   // The part with the smallest signed distance from a point in the camera frame; none if that is
   // more than within_m.
   Nearest FindNearest(const Vector3f& x, float within_m) const;
-  // That of one part.
+  // The distance from one part.
   Nearest DistanceFrom(int bone, const Vector3f& x) const;
 
  private:

@@ -1,10 +1,11 @@
 // Rigid parts with signed distance fields, after DART (Schmidt, Newcombe & Fox 2014), as paper B
-// compares with it: the body cut into closed pieces along its bones. docs/baselines.md says what is
-// read from DART's code and what is ours.
+// compares with it: the body cut into closed pieces along its bones. docs/baselines.md lists what
+// comes from DART's code and what is added here.
 //
 // Departures: the prediction is rasterised instead of traced through the fields; the distance from
-// the observation is that of the nearest point instead of a grid's; angles are anatomical and their
-// limits bounds; a prior about the predicted pose stands for the damping.
+// the observation is that of the nearest point instead of a grid's; the pose is parametrised by
+// anatomical angles with their limits as bounds; a prior about the predicted pose replaces the
+// damping.
 #pragma once
 
 #include "articulated/articulated_tracker.h"

@@ -27,7 +27,7 @@ void FieldSettings::Describe(Fields& f) {
 
 void ObservedSettings::Describe(Fields& f) {
   f.Number("weight", weight,
-           {.meaning = "weight of the observed points' distances from the parts; 0: left out",
+           {.meaning = "weight of the observed points' distances from the parts; 0: no such term",
             .min = 0,
             .max = 1e6,
             .origin = Origin::kPaper,
@@ -48,7 +48,8 @@ void ObservedSettings::Describe(Fields& f) {
             .max = 10,
             .origin = Origin::kGuessed});
   f.Number("huber_m", huber_m,
-           {.meaning = "distance up to which an observed point counts in full",
+           {.meaning =
+                "scale of the Huber kernel: distance up to which an observed point has full weight",
             .unit = "m",
             .min = 1e-4,
             .max = 10,
@@ -69,15 +70,15 @@ std::string ObservedSettings::Problem() const {
 
 void PredictedSettings::Describe(Fields& f) {
   f.Number("weight", weight,
-           {.meaning = "weight of the predicted surface's distances from what was observed, "
-                       "against that of as many points; 0: left out",
+           {.meaning = "weight of the predicted surface's distances from the observation, relative "
+                       "to that of as many points; 0: no such term",
             .min = 0,
             .max = 1e6,
             .origin = Origin::kTuned,
             .source = "captured/walk; DART: λ = 1, with which limbs stick to the trunk"});
   if (!f.Applies(weight > 0.0)) return;
   f.Integer("stride_px", stride_px,
-            {.meaning = "every how many columns and rows the model's depth is predicted",
+            {.meaning = "stride in columns and rows of the predicted depth",
              .unit = "px",
              .min = 1,
              .max = 16,
@@ -90,8 +91,7 @@ void PredictedSettings::Describe(Fields& f) {
             .origin = Origin::kPaper,
             .source = "DART: a cell of its 64³ grid over the model's box, about 0.03 for a body"});
   f.Number("cutoff_m", cutoff_m,
-           {.meaning = "distance from what was observed beyond which predicted surface is not "
-                       "drawn back",
+           {.meaning = "distance from the observation beyond which a predicted point gets no row",
             .unit = "m",
             .min = 0.001,
             .max = 10,
@@ -101,8 +101,8 @@ void PredictedSettings::Describe(Fields& f) {
 
 void IntersectionSettings::Describe(Fields& f) {
   f.Number("weight", weight,
-           {.meaning = "weight of the depth of one part in another, against that of as many "
-                       "points; 0: left out",
+           {.meaning = "weight of the penetration depth of one part into another, relative to that "
+                       "of as many points; 0: no such term",
             .min = 0,
             .max = 1e6,
             .origin = Origin::kPaper,
@@ -120,9 +120,10 @@ void IntersectionSettings::Describe(Fields& f) {
 void Settings::Describe(Fields& f) {
   f.Visit(common);
   f.Section("field", field, {.meaning = "the parts and their signed distance fields"});
-  f.Section("observed", observed, {.meaning = "from the observation to the model"});
-  f.Section("predicted", predicted, {.meaning = "from the model to the observation"});
-  f.Section("intersection", intersection, {.meaning = "parts that reach into each other"});
+  f.Section("observed", observed, {.meaning = "distances from the observation to the model"});
+  f.Section("predicted", predicted,
+            {.meaning = "distances from the predicted model to the observation"});
+  f.Section("intersection", intersection, {.meaning = "penalty on intersecting parts"});
 }
 
 std::string Settings::Problem() const {

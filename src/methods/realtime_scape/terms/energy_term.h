@@ -20,11 +20,11 @@ enum class EnergyTerm {
 };
 inline constexpr auto kEnergyTermCount = static_cast<std::size_t>(EnergyTerm::kCount);
 
-// What a term is called in results.
+// The term's name in results.
 const char* Name(EnergyTerm term);
 
-// One weight for each term (α of eq. 7). A term's setting is its name with "_weight". The fit has
-// none of its own: its two kinds of rows have theirs in the section "fit".
+// One weight for each term (α of eq. 7). A term's setting is its name with "_weight". The fit term
+// has no such weight: the weights of its two kinds of rows are in the section "fit".
 struct TermWeights {
   TermWeights();  // the defaults of the list
 

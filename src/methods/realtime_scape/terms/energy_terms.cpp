@@ -56,7 +56,8 @@ const std::array<TermEntry, kEnergyTermCount>& Terms() {
          in.joints.Add(in.model, in.pose, weight, in.settings.length_unit_m, equations);
        }},
       {EnergyTerm::kInertia, "inertia", "inertia_weight", 5.0,
-       AboutWeight("α₂, weight of the term that keeps each bone's local rotation as expected"),
+       AboutWeight(
+           "α₂, weight of the term that keeps each bone's local rotation near the predicted one"),
        [](const TermInput& in, double weight, BlockNormalEquations& equations) {
          AddInertiaTerm(in.pose, in.expected, weight, equations);
        }},
@@ -67,7 +68,7 @@ const std::array<TermEntry, kEnergyTermCount>& Terms() {
          AddAxisTerm(in.pose, weight, equations);
        }},
       {EnergyTerm::kFreeSpace, "free_space", "free_space_weight", 0.0,
-       AboutOwnWeight("weight of the term that draws visible vertices out of space that the frame "
+       AboutOwnWeight("weight of the term that moves visible vertices out of space that the frame "
                       "shows to be free"),
        [](const TermInput& in, double weight, BlockNormalEquations& equations) {
          AddFreeSpaceTerm(in.model, in.pose, in.free_space, in.settings.fit, weight,
@@ -80,7 +81,7 @@ const std::array<TermEntry, kEnergyTermCount>& Terms() {
          AddLimitTerm(in.pose, in.settings.limit_slack_deg * kRadiansPerDegree, weight, equations);
        }},
       {EnergyTerm::kPrior, "prior", "prior_weight", 0.0,
-       AboutOwnWeight("weight of the term that draws local rotations to those usual in captured "
+       AboutOwnWeight("weight of the prior on local rotations about their means in captured "
                       "motion, per squared standard deviation"),
        [](const TermInput& in, double weight, BlockNormalEquations& equations) {
          AddPriorTerm(in.pose, weight, equations);

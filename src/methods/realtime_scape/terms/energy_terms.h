@@ -21,7 +21,7 @@ struct TermInput {
   const Settings& settings;
   const JointTerm& joints;
   const BodyPose& pose;
-  const LocalRotations& expected;  // local rotations that inertia holds on to
+  const LocalRotations& expected;  // reference rotations of the inertia term
   const VertexClasses& classes;
   const std::vector<Pair>& pairs;
   const FreeSpace& free_space;

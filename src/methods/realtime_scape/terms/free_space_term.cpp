@@ -10,7 +10,7 @@
 namespace vitruvia::realtime_scape {
 namespace {
 
-// The measured pixel nearest to `from`, which is none itself, at most reach_px away.
+// The measured pixel nearest to the unmeasured pixel `from`, at most reach_px away.
 std::optional<Pixel> NearestMeasured(const DepthImage& captured, Pixel from, int reach_px) {
   std::optional<Pixel> nearest;
   int nearest_squared = std::numeric_limits<int>::max();

@@ -1,5 +1,6 @@
-// Free space: where the frame shows that nothing is, nothing of the model may be seen. Ours: paper
-// A pairs such a vertex (V2) with the nearest observed point if one is near, and else ignores it.
+// Free-space term: penalises visible vertices where the frame shows empty space. Not in paper A,
+// which pairs such a vertex (V2) with the nearest observed point if there is one nearby, and
+// otherwise ignores it.
 #pragma once
 
 #include <vector>
@@ -11,13 +12,14 @@
 
 namespace vitruvia::realtime_scape {
 
-// Visible vertices in free space, each with the nearest place that is not.
+// Visible vertices in free space, each paired with the nearest place outside it.
 struct FreeSpace {
   std::vector<Pair> ways_out;
 };
 
-// Of the vertices that no captured pixel explains (V2): one before the captured surface leaves
-// along its line of sight, one where nothing is measured across it, to the nearest measured pixel.
+// Of the vertices that no captured pixel explains (V2): one in front of the captured surface leaves
+// along its line of sight; one where nothing is measured leaves across it, to the nearest measured
+// pixel.
 void FindFreeSpace(const std::vector<Vector3f>& vertices, const VertexClasses& classes,
                    const DepthImage& captured, const PinholeCamera& camera,
                    const FitSettings& settings, FreeSpace& free_space);

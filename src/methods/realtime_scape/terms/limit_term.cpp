@@ -20,8 +20,8 @@ void AddLimitTerm(const BodyPose& pose, double slack_rad, double weight,
     const BoneLimits& limits = LimitsOfBones()[bone];
     if (!limits.HasAny()) continue;
     const LocalDeviation deviation(pose, bone, Bones()[bone].parent, Matrix3<double>::Identity());
-    // A bent and turned elbow is at an angle beyond π. The rotation does not say which of its two
-    // vectors is meant: the one nearer to the range.
+    // A bent and turned elbow may have a rotation angle beyond π. Of the two rotation vectors of
+    // the rotation, the one nearer to the range is used.
     Vector3d angles = deviation.vector();
     Vector3d excess = Excess(angles, limits, slack_rad);
     const Vector3d other_angles = OtherWayRound(angles);

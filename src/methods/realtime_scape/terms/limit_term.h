@@ -1,4 +1,4 @@
-// Soft limits of joints. Ours: paper A has none.
+// Soft joint limits, which paper A does not have.
 #pragma once
 
 #include "methods/realtime_scape/body_pose.h"

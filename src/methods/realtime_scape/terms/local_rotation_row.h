@@ -1,4 +1,5 @@
-// How far a bone's local rotation is from a reference, and how that depends on the unknowns.
+// Deviation of a bone's local rotation from a reference, and its derivatives with respect to the
+// unknowns.
 #pragma once
 
 #include <numbers>
@@ -10,7 +11,7 @@
 
 namespace vitruvia::realtime_scape {
 
-// The other rotation vector of the same rotation, at an angle of π … 2π where the first is at 0 …
+// The other rotation vector of the same rotation: its angle is in π … 2π if the given one is in 0 …
 // π.
 inline Vector3d OtherWayRound(const Vector3d& rotation_vector) {
   const double angle = rotation_vector.norm();
@@ -18,7 +19,7 @@ inline Vector3d OtherWayRound(const Vector3d& rotation_vector) {
                      : rotation_vector;
 }
 
-// How a rotation vector of referenceᵀ R_parentᵀ R, in the reference's axes, depends on the
+// The rotation vector of referenceᵀ R_parentᵀ R, in the reference's axes, as a function of the
 // unknowns.
 class LocalDeviation {
  public:
@@ -31,8 +32,8 @@ class LocalDeviation {
   // At an angle of at most π.
   const Vector3d& vector() const { return vector_; }
 
-  // Rows Σ_k (scale_k (vector_k − offset_k))², but for scales of 0. `vector` is vector() or its
-  // other way round.
+  // Adds rows Σ_k (scale_k (vector_k − offset_k))² for the non-zero scales. `vector` is vector() or
+  // OtherWayRound(vector()).
   void AddRows(const Vector3d& vector, const Vector3d& offset, const Vector3d& scale, double weight,
                BlockNormalEquations& equations) const {
     const Matrix3<double> by_bone =

@@ -1,4 +1,4 @@
-// The bones that paper A treats specially (section 6.1): each turns about a main axis only.
+// The bones that rotate only about a main axis (paper A, section 6.1).
 #pragma once
 
 #include <array>

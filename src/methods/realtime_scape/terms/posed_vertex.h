@@ -1,4 +1,4 @@
-// A vertex in some pose, and how it depends on the unknowns.
+// A posed vertex and its derivatives with respect to the unknowns.
 #pragma once
 
 #include "methods/realtime_scape/model.h"
@@ -6,9 +6,8 @@
 
 namespace vitruvia::realtime_scape {
 
-// A posed vertex and its derivative by the bones' increments: bone j with weight w moves it by
-// w (r × arm_j + t), where arm_j = R_j (v̄ − c̄_j) is the vertex under that bone alone, relative to
-// the bone's centre.
+// The increment (r, t) of bone j with weight w moves the vertex by w (r × arm_j + t), where arm_j =
+// R_j (v̄ − c̄_j) is the vertex moved by this bone alone, relative to the bone's centre.
 class PosedVertex {
  public:
   PosedVertex(const Model& model, const BodyPose& pose, int vertex)

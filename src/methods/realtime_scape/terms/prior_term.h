@@ -1,4 +1,4 @@
-// A weak prior on the pose. Ours: paper A has none.
+// A weak prior on the pose, which paper A does not have.
 #pragma once
 
 #include "methods/realtime_scape/body_pose.h"

@@ -1,4 +1,4 @@
-// ‖a − b‖² of two vectors that turn with a bone and with its parent.
+// Rows of ‖a − b‖² for two vectors that rotate with a bone and with its parent.
 #pragma once
 
 #include "methods/realtime_scape/body_pose.h"
