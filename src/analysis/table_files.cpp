@@ -65,6 +65,13 @@ TextTable PaperTable(const ReportedExperiment& experiment) {
   return table;
 }
 
+// Of an experiment without a finished run: why.
+TextTable ProblemTable(const ReportedExperiment& experiment) {
+  TextTable table{{"run", "status"}, {}, {}};
+  for (const auto& run : experiment.runs) table.rows.push_back({{run.run_id}, {run.problem}});
+  return table;
+}
+
 // The variants' table and the comparison with the papers, those of them that have a row.
 std::vector<TextTable> TablesOf(const ReportedExperiment& experiment) {
   const bool one_variant = ContendersOf(experiment).size() < 2;
@@ -72,7 +79,7 @@ std::vector<TextTable> TablesOf(const ReportedExperiment& experiment) {
                                                : ToText(TabulateVariants(experiment), "variant"),
                                    PaperTable(experiment)};
   std::erase_if(tables, [](const TextTable& table) { return table.rows.empty(); });
-  return tables;
+  return tables.empty() ? std::vector{ProblemTable(experiment)} : tables;
 }
 
 // Those that a column of differences can be taken from.

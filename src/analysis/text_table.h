@@ -11,7 +11,8 @@ struct TextCell {
   bool bold = false;
 };
 
-// The first column is set to the left, the others to the right.
+// The first column is set to the left, the others to the right. A row of a single cell is a heading
+// over the rows that follow.
 struct TextTable {
   std::vector<std::string> head;
   std::vector<std::vector<TextCell>> rows;

@@ -36,9 +36,10 @@ struct VariantComparison {
 std::size_t DefaultContender(const ReportedExperiment& experiment,
                              const std::vector<Contender>& contenders);
 
-// Every contender against `reference`; "": the default one. `metrics` empty: those that matter most
-// of those that there are. A contender without any pair in a metric has no row for it. ConfigError
-// if there is nothing to compare with, or no contender or metric of a name.
+// Every contender against `reference`; "": the default one. `metrics` empty: the experiment's
+// table_columns, or those that matter most, of those that there are. A contender without any pair
+// in a metric has no row for it. ConfigError if there is nothing to compare with, or no contender
+// or metric of a name.
 std::vector<VariantComparison> CompareVariants(const ReportedExperiment& experiment,
                                                const std::string& reference,
                                                const std::vector<std::string>& metrics);
@@ -83,7 +84,8 @@ std::string RelativeText(const VariantComparison& row);
 
 nlohmann::json ToJson(const std::vector<VariantComparison>& rows);
 std::string ToCsv(const std::vector<VariantComparison>& rows);
-// Variant, mean ± standard deviation, difference, interval, pairs and verdict.
+// Variant, mean ± standard deviation, difference, interval and pairs; differences that are shown
+// are bold.
 TextTable ToText(const std::vector<VariantComparison>& rows);
 
 // What the pairs are independent samples of: "8 scenes", or "6 pairs" of one scene.
