@@ -16,9 +16,10 @@ constexpr double kNarrowestPanel = 180.0;
 constexpr double kPanelHeight = 330.0, kStackedPanelHeight = 250.0;
 constexpr double kTallest = 0.75;  // of a panel's axes, as a share of its width
 constexpr double kMargin = 6.0, kTickLength = 5.0, kTickSpace = 60.0, kTextLine = 15.0;
-constexpr double kRowHeight = 22.0;    // of rows of bars
+constexpr double kRowHeight = 22.0;  // of rows of bars
+constexpr double kCellHeight = 32.0, kCellPadding = 10.0;
 constexpr double kWidestNames = 0.42;  // of names beside an axis, as a share of the panel
-constexpr int kYTicks = 5, kFewestXTicks = 3;
+constexpr int kYTicks = 5, kFewestXTicks = 4;
 constexpr double kTickText = 12.0, kTitleText = 14.0;
 constexpr double kFailureRow = 9.0;
 constexpr double kHeadroom = 1.06;  // of an axis over its largest value
@@ -182,8 +183,24 @@ Margins MarginsOf(const Panel& panel, double width, double axes_height, const Te
   return m;
 }
 
+// Cells hold their texts; names and labels beside them take about as much room as usual.
+double NarrowestPanel(const Panel& panel, const Texts& texts) {
+  const double usual = kNarrowestPanel * texts.scale;
+  if (!panel.cells) return usual;
+  double widest = 0.0;
+  for (const auto& row : panel.cells->texts) {
+    for (const std::string& text : row)
+      widest = std::max(widest, TextWidth(text, texts.TickText()));
+  }
+  const double cell = widest + kCellPadding * texts.scale;
+  return 0.5 * usual + cell * static_cast<double>(panel.x_ticks.size());
+}
+
 int ColumnsOf(const Figure& figure, const FigureStyle& style) {
-  const double narrowest = kNarrowestPanel * style.text_size / kUsualText;
+  const Texts texts(style);
+  double narrowest = 1.0;
+  for (const Panel& panel : figure.panels)
+    narrowest = std::max(narrowest, NarrowestPanel(panel, texts));
   const int most = std::min(figure.columns, static_cast<int>(figure.panels.size()));
   return std::clamp(static_cast<int>(style.width / narrowest), 1, std::max(most, 1));
 }
@@ -203,8 +220,8 @@ double AxesHeight(const Figure& figure, double usual_panel, double panel_width,
   double height = 0.0;
   for (const Panel& panel : figure.panels) {
     const std::size_t lines = LinesOfNames(panel, kWidestNames * panel_width, texts);
-    const double row =
-        std::max(kRowHeight * texts.scale, (static_cast<double>(lines) + 0.5) * texts.Line());
+    const double row = std::max((panel.cells ? kCellHeight : kRowHeight) * texts.scale,
+                                (static_cast<double>(lines) + 0.5) * texts.Line());
     height = std::max(height, row * static_cast<double>(panel.y_ticks.size()));
   }
   if (height > 0.0) return std::max(height, 2.0 * kRowHeight * texts.scale);

@@ -62,7 +62,11 @@ class Sheet {
           WrappedText(what, cell_, bold_).size() + WrappedText(where, cell_, text_).size();
       header_ = std::max(header_, (static_cast<double>(lines) * kTextLine + 10.0) * u_);
     }
-    key_top_ = header_ + static_cast<double>(run_.strips.size()) * (cell_ + gap());
+    key_top_ = header_;
+    for (const PictureStrip& strip : run_.strips) {
+      row_tops_.push_back(key_top_);
+      key_top_ += std::max(cell_, LabelOf(strip).height) + gap();
+    }
     legend_top_ = key_top_;
     if (!letter_key_.empty())
       legend_top_ += (static_cast<double>(letter_key_.size()) + 0.5) * kTextLine * u_;
@@ -180,17 +184,27 @@ class Sheet {
                   WrappedText(where, cell_, text_), plain, line);
   }
 
+  struct RowLabel {
+    std::vector<std::string> label, sublabel;  // lines
+    double height;
+  };
+  RowLabel LabelOf(const PictureStrip& strip) const {
+    const double room = margin_ - 1.5 * kEdge * u_;
+    RowLabel label{WrappedText(strip.label, room, bold_), WrappedText(strip.sublabel, room, text_),
+                   0.0};
+    label.height = static_cast<double>(label.label.size() + label.sublabel.size()) * kTextLine * u_;
+    return label;
+  }
+
   void DrawRow(Canvas& canvas, std::size_t row) const {
     const PictureStrip& strip = run_.strips[row];
-    const double top = header_ + static_cast<double>(row) * (cell_ + gap());
-    const double room = margin_ - 1.5 * kEdge * u_, line = kTextLine * u_;
-    const auto label = WrappedText(strip.label, room, bold_);
-    const auto sublabel = WrappedText(strip.sublabel, room, text_);
-    const double lines = static_cast<double>(label.size() + sublabel.size());
-    const double first = top + 0.5 * cell_ - 0.5 * (lines - 1.0) * line;
+    const auto [label, sublabel, height] = LabelOf(strip);
+    const double line = kTextLine * u_, room = std::max(cell_, height);
+    const double first = row_tops_[row] + 0.5 * (room - height + line);
     DrawTextLines(canvas, {kEdge * u_, first}, label, bold_, line);
     DrawTextLines(canvas, {kEdge * u_, first + static_cast<double>(label.size()) * line}, sublabel,
                   text_, line);
+    const double top = row_tops_[row] + 0.5 * (room - cell_);
     for (std::size_t i = 0; i < strip.pictures.size(); ++i)
       canvas.Image({X(i), top}, cell_, cell_, strip.pictures[i]);
   }
@@ -231,6 +245,7 @@ class Sheet {
   double margin_ = 0.0, cell_ = 0.0, width_ = 0.0, height_ = 0.0;
   double header_ = 0.0, key_top_ = 0.0, legend_top_ = 0.0;
   std::vector<std::string> heads_, letter_key_;
+  std::vector<double> row_tops_;
   std::vector<LegendBox> legend_;
 };
 
