@@ -83,8 +83,8 @@ std::string MethodText(std::size_t count) {
       "Differences are of pairs of the same scene and seed; intervals are {:.0f} % bootstrap "
       "intervals that draw scenes, then seeds. A difference is called one only if its interval "
       "excludes zero, Student's test over the scenes (of a single scene: over its pairs) does with "
-      "Holm's correction for {} comparisons, and there are at least {} pairs.",
-      1e2 * confidence, count, FewestPairs(confidence));
+      "Holm's correction for {} comparison{}, and there are at least {} pairs.",
+      1e2 * confidence, count, count == 1 ? "" : "s", FewestPairs(confidence));
 }
 
 TextTable ToText(const std::vector<VariantComparison>& rows) {
