@@ -44,10 +44,11 @@ void PrintTable(const std::vector<VariantComparison>& rows) {
                  Printed(row.reference_spread.mean, row.metric));
     }
     metric = row.metric.key;
+    const int pairs = row.comparison.difference.count;
     const std::string scenes = row.comparison.scenes > 1 ? ", " + UnitsText(row.comparison) : "";
-    fmt::print("  {:<40} {:>12}  {:>34} {:>9}  {:>3} pairs{}  {}{}\n", row.other,
+    fmt::print("  {:<40} {:>12}  {:>34} {:>9}  {:>3} pair{}{}  {}{}\n", row.other,
                Printed(row.other_spread.mean, row.metric), DifferenceText(row), RelativeText(row),
-               row.comparison.difference.count, scenes, VerdictText(row),
+               pairs, pairs == 1 ? "" : "s", scenes, VerdictText(row),
                row.unpaired == 0 ? "" : fmt::format("; {} runs without a partner", row.unpaired));
   }
   fmt::print("{}\n", MethodText(rows.size()));
@@ -121,7 +122,9 @@ void Compare(const CompareArguments& a) {
                                a.metrics);
   PrintTable(rows);
   if (a.detect) PrintNeeded(rows, *a.detect);
-  if (!a.output.empty()) WriteTable(rows, a.output);
+  if (a.output.empty()) return;
+  WriteTable(rows, a.output);
+  fmt::print("table: {}\n", a.output.string());
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ std::vector<Tick> Axis::LogarithmicTicks(int count) const {
     const double exponent = std::log10(value);
     if (std::abs(exponent - std::round(exponent)) < kRounding) decades.push_back(all.back());
   }
-  return static_cast<int>(all.size()) > count && decades.size() > 1 ? decades : all;
+  return static_cast<int>(all.size()) > count && decades.size() > 2 ? decades : all;
 }
 
 }  // namespace vitruvia

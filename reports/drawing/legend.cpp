@@ -67,6 +67,7 @@ void Legend::DrawSample(Canvas& canvas, const Entry& entry) const {
   const Series& series = *entry.sample;
   switch (series.mark) {
     case Mark::kLine:
+    case Mark::kLineWithPoints:
       return canvas.Line({entry.x, entry.y}, {entry.x + (kSample - 6.0) * u, entry.y},
                          {series.color, std::max(series.width, 1.8) * u, series.dash * u});
     case Mark::kStackedBars:

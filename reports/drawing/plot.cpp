@@ -16,9 +16,10 @@ constexpr double kNarrowestPanel = 180.0;
 constexpr double kPanelHeight = 330.0, kStackedPanelHeight = 250.0;
 constexpr double kTallest = 0.75;  // of a panel's axes, as a share of its width
 constexpr double kMargin = 6.0, kTickLength = 5.0, kTickSpace = 60.0, kTextLine = 15.0;
-constexpr double kRowHeight = 22.0;    // of rows of bars
+constexpr double kRowHeight = 22.0;  // of rows of bars
+constexpr double kCellHeight = 32.0, kCellPadding = 10.0;
 constexpr double kWidestNames = 0.42;  // of names beside an axis, as a share of the panel
-constexpr int kYTicks = 5;
+constexpr int kYTicks = 5, kFewestXTicks = 4;
 constexpr double kTickText = 12.0, kTitleText = 14.0;
 constexpr double kFailureRow = 9.0;
 constexpr double kHeadroom = 1.06;  // of an axis over its largest value
@@ -27,6 +28,7 @@ constexpr double kFarFromZero = 0.7;
 constexpr Color kGrid{0xe4, 0xe4, 0xe4}, kAxis{0x44, 0x44, 0x44}, kReferenceInk{0x66, 0x66, 0x66};
 constexpr double kReferenceDash = 5.0;
 constexpr double kBandOpacity = 0.2;
+constexpr double kDotRadius = 3.0;
 
 // The smallest, the smallest positive and the largest of what is to be shown.
 struct Range {
@@ -167,10 +169,10 @@ std::size_t HeadLines(const Panel& panel, double width, const Texts& texts) {
          WrappedText(note, width - 30.0 * texts.scale, texts.TickText()).size();
 }
 
-Margins MarginsOf(const Panel& panel, double width, double height, const Texts& texts) {
+Margins MarginsOf(const Panel& panel, double width, double axes_height, const Texts& texts) {
   const double u = texts.scale;
   Margins m;
-  const std::size_t y_lines = WrappedText(panel.y_label, 0.8 * height, texts.Label()).size();
+  const std::size_t y_lines = WrappedText(panel.y_label, axes_height, texts.Label()).size();
   m.left = kMargin * u + static_cast<double>(y_lines) * texts.Line() + 11.0 * u +
            std::min(WidestTick(YTicks(panel), texts.TickText()), kWidestNames * width);
   m.right = 18.0 * u;
@@ -181,9 +183,26 @@ Margins MarginsOf(const Panel& panel, double width, double height, const Texts& 
   return m;
 }
 
+// Cells hold their texts; names and labels beside them take about as much room as usual.
+double NarrowestPanel(const Panel& panel, const Texts& texts) {
+  const double usual = kNarrowestPanel * texts.scale;
+  if (!panel.cells) return usual;
+  double widest = 0.0;
+  for (const auto& row : panel.cells->texts) {
+    for (const std::string& text : row)
+      widest = std::max(widest, TextWidth(text, texts.TickText()));
+  }
+  const double cell = widest + kCellPadding * texts.scale;
+  return 0.5 * usual + cell * static_cast<double>(panel.x_ticks.size());
+}
+
 int ColumnsOf(const Figure& figure, const FigureStyle& style) {
-  const double narrowest = kNarrowestPanel * style.text_size / kUsualText;
-  return std::clamp(static_cast<int>(style.width / narrowest), 1, std::max(figure.columns, 1));
+  const Texts texts(style);
+  double narrowest = 1.0;
+  for (const Panel& panel : figure.panels)
+    narrowest = std::max(narrowest, NarrowestPanel(panel, texts));
+  const int most = std::min(figure.columns, static_cast<int>(figure.panels.size()));
+  return std::clamp(static_cast<int>(style.width / narrowest), 1, std::max(most, 1));
 }
 
 // The most lines that a name beside an axis needs.
@@ -201,8 +220,8 @@ double AxesHeight(const Figure& figure, double usual_panel, double panel_width,
   double height = 0.0;
   for (const Panel& panel : figure.panels) {
     const std::size_t lines = LinesOfNames(panel, kWidestNames * panel_width, texts);
-    const double row =
-        std::max(kRowHeight * texts.scale, (static_cast<double>(lines) + 0.5) * texts.Line());
+    const double row = std::max((panel.cells ? kCellHeight : kRowHeight) * texts.scale,
+                                (static_cast<double>(lines) + 0.5) * texts.Line());
     height = std::max(height, row * static_cast<double>(panel.y_ticks.size()));
   }
   if (height > 0.0) return std::max(height, 2.0 * kRowHeight * texts.scale);
@@ -218,12 +237,13 @@ struct Layout {
         rows((static_cast<int>(figure.panels.size()) + columns - 1) / columns),
         panel_width((style.width - (columns - 1) * gap) / columns) {
     const double usual = texts.scale * (rows > 1 ? kStackedPanelHeight : kPanelHeight);
+    const double axes_height = AxesHeight(figure, usual, panel_width, texts);
     for (const Panel& panel : figure.panels) {
-      const Margins m = MarginsOf(panel, panel_width, usual, texts);
+      const Margins m = MarginsOf(panel, panel_width, axes_height, texts);
       margins = {std::max(margins.left, m.left), std::max(margins.right, m.right),
                  std::max(margins.top, m.top), std::max(margins.bottom, m.bottom)};
     }
-    panel_height = margins.top + margins.bottom + AxesHeight(figure, usual, panel_width, texts);
+    panel_height = margins.top + margins.bottom + axes_height;
   }
 
   double Height() const {
@@ -248,7 +268,7 @@ class PanelFrame {
   PanelFrame(const Panel& panel, Point top_left, const Layout& layout)
       : texts(layout.texts),
         panel_left(top_left.x),
-        panel_top(top_left.y),
+        panel_width(layout.panel_width),
         left(top_left.x + layout.margins.left),
         right(top_left.x + layout.panel_width - layout.margins.right),
         top(top_left.y + layout.margins.top),
@@ -261,14 +281,14 @@ class PanelFrame {
   Point At(double x, double y) const { return {X(x), Y(y)}; }
 
   Texts texts;
-  double panel_left, panel_top, left, right, top, bottom;
+  double panel_left, panel_width, left, right, top, bottom;
   Axis x_axis, y_axis;
 };
 
 std::vector<Tick> XTicks(const Panel& panel, const PanelFrame& frame) {
   if (!panel.x_ticks.empty()) return panel.x_ticks;
-  return frame.x_axis.Ticks(
-      static_cast<int>((frame.right - frame.left) / (kTickSpace * frame.texts.scale)));
+  const double room = (frame.right - frame.left) / (kTickSpace * frame.texts.scale);
+  return frame.x_axis.Ticks(std::max(static_cast<int>(room), kFewestXTicks));
 }
 
 void DrawLines(Canvas& canvas, Point at, const std::vector<std::string>& lines,
@@ -289,19 +309,19 @@ void DrawXTicks(Canvas& canvas, const Panel& panel, const PanelFrame& frame) {
     const double x = frame.X(tick.value), half = 0.5 * TextWidth(tick.label, style);
     canvas.Line({x, frame.bottom}, {x, frame.bottom + kTickLength * u}, {kAxis, u});
     if (x - half < free_from) continue;
-    free_from = x + half + 4.0 * u;
+    free_from = x + half + 7.0 * u;
     canvas.Text({x, frame.bottom + (kTickLength + 2.0) * u}, tick.label, style);
   }
 }
 
-void DrawYTicks(Canvas& canvas, const Panel& panel, const PanelFrame& frame, double name_width) {
+void DrawYTicks(Canvas& canvas, const Panel& panel, const PanelFrame& frame) {
   const double u = frame.texts.scale;
   TextStyle style = frame.texts.TickText();
   style.anchor = Anchor::kEnd;
   for (const Tick& tick : YTicks(panel)) {
     const double y = frame.Y(tick.value);
     if (panel.y_ticks.empty()) canvas.Line({frame.left, y}, {frame.right, y}, {kGrid, u});
-    const std::vector<std::string> lines = WrappedText(tick.label, name_width, style);
+    const auto lines = WrappedText(tick.label, kWidestNames * frame.panel_width, style);
     const double first = y - 0.5 * static_cast<double>(lines.size() - 1) * frame.texts.Line();
     DrawLines(canvas, {frame.left - 7.0 * u, first}, lines, style, frame.texts.Line());
   }
@@ -322,8 +342,7 @@ void DrawLabels(Canvas& canvas, const Panel& panel, const PanelFrame& frame) {
 
 void DrawAxes(Canvas& canvas, const Panel& panel, const PanelFrame& frame) {
   const double u = frame.texts.scale;
-  DrawYTicks(canvas, panel, frame,
-             frame.left - frame.panel_left - (kMargin + 11.0) * u - frame.texts.Line());
+  DrawYTicks(canvas, panel, frame);
   DrawXTicks(canvas, panel, frame);
   canvas.Line({frame.left, frame.bottom}, {frame.right, frame.bottom}, {kAxis, u});
   canvas.Line({frame.left, frame.top}, {frame.left, frame.bottom}, {kAxis, u});
@@ -413,6 +432,9 @@ void DrawLine(Canvas& canvas, const Series& series, const PanelFrame& frame, con
       hint.values.emplace_back(series.x[i], series.y[i]);
     }
     if (points.size() == 1) canvas.Disc(points.front(), 1.5 * u, series.color);
+    if (series.mark == Mark::kLineWithPoints) {
+      for (const Point& point : points) canvas.Disc(point, kDotRadius * u, series.color);
+    }
     canvas.Polyline(points, {series.color, series.width * u, series.dash * u}, std::move(hint));
   }
 }
@@ -507,8 +529,9 @@ void DrawPanel(Canvas& canvas, const Panel& panel, const PanelFrame& frame, cons
   if (HasBars(panel)) return DrawBars(canvas, panel, frame);
   for (const Series& series : panel.series) DrawBand(canvas, series, frame);
   for (const Series& series : panel.series) {
-    if (series.mark == Mark::kLine) DrawLine(canvas, series, frame, figure);
-    if (series.mark != Mark::kLine) DrawPoints(canvas, series, panel, frame, figure);
+    const bool is_line = series.mark == Mark::kLine || series.mark == Mark::kLineWithPoints;
+    if (is_line) DrawLine(canvas, series, frame, figure);
+    if (!is_line) DrawPoints(canvas, series, panel, frame, figure);
   }
   DrawFailures(canvas, panel, frame);
 }

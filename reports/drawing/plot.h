@@ -13,6 +13,7 @@ namespace vitruvia {
 
 enum class Mark {
   kLine,
+  kLineWithPoints,  // a disc at each value
   kPoints,
   kRings,
   kStackedBars,  // from left to right at each y, after those of the series before

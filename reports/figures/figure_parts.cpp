@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <set>
+
+#include <fmt/format.h>
 
 #include "reports/drawing/color_maps.h"
 
@@ -46,6 +49,17 @@ std::string FileSafe(std::string text) {
 }
 
 Color VariantColor(std::size_t index) { return kRunColors[index % kRunColors.size()]; }
+
+std::string ThreadsText(const std::vector<const RunRecord*>& runs) {
+  std::set<int> threads;
+  for (const RunRecord* run : runs) {
+    if (run->provenance.contains("threads"))
+      threads.insert(run->provenance.at("threads").get<int>());
+  }
+  if (threads.empty()) return "";
+  return fmt::format(", {} thread{}", fmt::join(threads, " or "),
+                     threads == std::set{1} ? "" : "s");
+}
 
 std::vector<std::string> ScenesOf(const std::vector<const RunRecord*>& runs) {
   std::vector<std::string> scenes;

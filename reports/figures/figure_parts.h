@@ -31,4 +31,7 @@ std::string FileSafe(std::string text);
 // The colour of the i-th variant, in all figures.
 Color VariantColor(std::size_t index);
 
+// What follows a time on an axis: ", 1 thread", as the runs' records say; "" where none does.
+std::string ThreadsText(const std::vector<const RunRecord*>& runs);
+
 }  // namespace vitruvia

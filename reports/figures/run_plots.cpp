@@ -175,6 +175,10 @@ Figure TimeFigure(const ExperimentRecord& experiment, const PlotGroup& group) {
   figure.title = "Time per frame";
   figure.caption = "Wall clock round the tracker's step only, without reading, writing or scoring.";
   Panel panel = PanelPerFrame("", {"frame_ms", FindMetric("frame_ms")}, experiment, group);
+  Runs all;
+  for (const VariantRuns& variant : group.variants)
+    all.insert(all.end(), variant.runs.begin(), variant.runs.end());
+  panel.y_label += ThreadsText(all);
   panel.y_references = PublishedReferences(experiment, FindMetric("frame_ms_median"));
   panel.y_scale = Scale::kLogarithmic;  // a first frame may take ten times as long as the others
   figure.panels = {std::move(panel)};

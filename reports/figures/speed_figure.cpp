@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -111,28 +110,16 @@ Scale ScaleFor(std::vector<double> values) {
   return *most > kWideRange * *least ? Scale::kLogarithmic : Scale::kLinear;
 }
 
-std::string ThreadsText(const ReportedExperiment& experiment) {
-  std::set<int> threads;
-  for (const RunRecord* run : experiment.finished()) {
-    if (run->provenance.contains("threads"))
-      threads.insert(run->provenance.at("threads").get<int>());
-  }
-  if (threads.empty()) return "";
-  return fmt::format(" Trackers ran on {} thread{}.", fmt::join(threads, " or "),
-                     threads == std::set{1} ? "" : "s");
-}
-
 std::string CalibrationText(const ReportedExperiment& experiment) {
   std::vector<double> ms;
   for (const RunRecord* run : experiment.finished()) {
     if (!std::isnan(CalibrationOf(*run))) ms.push_back(CalibrationOf(*run));
   }
-  if (ms.empty()) return ThreadsText(experiment);
-  return ThreadsText(experiment) + fmt::format(
-                                       " The calibration kernel took {:.2f} ms beside these runs "
-                                       "(median): times of another machine "
-                                       "compare as multiples of its own.",
-                                       Quantile(ms, 0.5));
+  if (ms.empty()) return "";
+  return fmt::format(
+      " The calibration kernel took {:.2f} ms beside these runs (median): times of another machine "
+      "compare as multiples of its own.",
+      Quantile(ms, 0.5));
 }
 
 // The scenes with separate panels, because times of different cameras and bodies are not
@@ -150,7 +137,7 @@ std::vector<std::string> PanelScenes(const ReportedExperiment& experiment) {
 Panel SpeedPanel(const ReportedExperiment& experiment, const std::string& scene,
                  const Metric& error_metric) {
   Panel panel{scene,
-              "time per frame, median and 95th percentile (ms)",
+              "time per frame (ms)" + ThreadsText(experiment.finished()),
               Titled(error_metric),
               {},
               PublishedReferences(experiment.record, error_metric),

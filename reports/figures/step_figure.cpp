@@ -54,7 +54,7 @@ std::optional<Figure> MakeStepFigure(const ReportedExperiment& experiment) {
   figure.caption =
       "Median time of each step of a frame, summed over the frame's iterations; the mean over a "
       "variant's runs. Medians need not add up to the median of the whole frame.";
-  Panel panel{"", "time (ms)", "", {}, {}, {}};
+  Panel panel{"", "time (ms)" + ThreadsText(experiment.finished()), "", {}, {}, {}};
   for (std::size_t c = 0; c < contenders.size(); ++c)
     panel.y_ticks.push_back({static_cast<double>(c), contenders[contenders.size() - 1 - c].name});
   const std::vector<std::string> names = StepNames(contenders);

@@ -143,6 +143,7 @@ Series MeanLine(const SweptVariant& variant, Color color, const Metric& metric,
   line.name = variant.name;
   line.color = color;
   line.width = kMeanWidth;
+  line.mark = Mark::kLineWithPoints;
   for (const SweptValue& v : variant.values) {
     Groups groups;
     std::vector<double> all;
@@ -209,10 +210,9 @@ std::optional<Figure> CurveFigure(const SweptSetting& setting,
   figure.name = "sweep-" + FileSafe(ShortName(setting));
   figure.title = "Swept: " + ShortName(setting);
   figure.caption = fmt::format(
-      "Against {}, the other settings at their defaults. Thick: the mean over all scenes and "
-      "seeds, "
-      "with its {:.0f} % bootstrap interval, which draws scenes, then seeds; thin: single scenes.",
-      setting.path, 1e2 * BootstrapSettings{}.confidence);
+      "The other settings are at their defaults. Thick: the mean over all scenes and seeds, with "
+      "its {:.0f} % bootstrap interval, which draws scenes, then seeds; thin: single scenes.",
+      1e2 * BootstrapSettings{}.confidence);
   figure.columns = 2;
   for (const Metric& metric : MetricsOf(experiment)) {
     Panel panel = SweepPanel(setting, variants, metric);

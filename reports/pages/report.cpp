@@ -3,6 +3,7 @@
 #include "analysis/tables.h"
 #include "analysis/text_table.h"
 #include "core/files.h"
+#include "reports/figures/figure_parts.h"
 #include "reports/figures/run_plots.h"
 #include "reports/pages/html_page.h"
 #include "reports/pictures/cause_pictures.h"
@@ -17,11 +18,10 @@ constexpr const char* kFiguresMark = "README";
 
 // Draws all pictures and writes each run's sheet. What is returned holds them encoded only.
 std::vector<RunPictures> WritePictureSheets(const ReportedExperiment& experiment,
-                                            const DrawingWriter& writer, const SheetStyle& style,
-                                            const fs::path& folder) {
+                                            const PictureUse& write) {
   const auto write_sheet = [&](RunPictures& run) {
     if (run.strips.empty()) return;
-    WritePictureSheet(writer, folder / ("pictures-" + run.run_id), run, style);
+    write(run);
     for (PictureStrip& strip : run.strips) {
       for (Picture& picture : strip.pictures) picture.image = {};
     }
@@ -47,6 +47,24 @@ std::string CaptionFile(const Figure& figure) {
   return text;
 }
 
+void WriteCaption(const Figure& figure, const fs::path& folder) {
+  WriteWholeFile(folder / (figure.name + ".txt"), CaptionFile(figure));
+  WriteWholeFile(folder / (figure.name + ".tex"), LatexFigure(figure));
+}
+
+// A sheet of pictures as a figure with a caption; its name is one that LaTeX takes.
+Figure SheetFigure(const RunPictures& run) {
+  std::vector<std::string> rows;
+  for (const PictureStrip& strip : run.strips) rows.push_back(strip.label);
+  Figure figure;
+  figure.name = "pictures-" + FileSafe(run.run_id);
+  figure.title = "Pictures";
+  figure.caption =
+      fmt::format("Rows: {}. Columns: {}.", fmt::join(rows, "; "), fmt::join(run.titles, "; "));
+  figure.runs = {{"all pictures", {run.run_id}}};
+  return figure;
+}
+
 DrawingWriter WriterFor(const PaperFormat& format) {
   constexpr double kDotsPerInch = 300.0, kPointsPerInch = 72.0;
   return DrawingWriter({1.0, kDotsPerInch / kPointsPerInch, format.formats});
@@ -65,10 +83,13 @@ fs::path WritePaperFigures(const fs::path& experiment_folder, const PaperFormat&
   for (const Figure& figure : MakeFigures(experiment)) {
     writer.Write(folder.path() / figure.name, style.width, FigureHeight(figure, style),
                  [&](Canvas& canvas) { DrawFigure(canvas, figure, style); });
-    WriteWholeFile(folder.path() / (figure.name + ".txt"), CaptionFile(figure));
-    WriteWholeFile(folder.path() / (figure.name + ".tex"), LatexFigure(figure));
+    WriteCaption(figure, folder.path());
   }
-  WritePictureSheets(experiment, writer, {format.text_pt, format.width_pt}, folder.path());
+  WritePictureSheets(experiment, [&](const RunPictures& run) {
+    const Figure figure = SheetFigure(run);
+    WritePictureSheet(writer, folder.path() / figure.name, run, {format.text_pt, format.width_pt});
+    WriteCaption(figure, folder.path());
+  });
   folder.Commit();
   return experiment_folder / "paper";
 }
@@ -81,8 +102,12 @@ fs::path WriteReport(const fs::path& experiment_folder) {
                  "Drawn by vitruvia; drawn anew with each report.\n");
   const std::vector<DrawnFigure> figures =
       DrawFigures(MakeFigures(experiment), figures_folder.path());
-  const std::vector<RunPictures> pictures = WritePictureSheets(
-      experiment, DrawingWriter({.png_scale = kSheetPngScale}), {}, figures_folder.path());
+  const DrawingWriter sheet_writer({.png_scale = kSheetPngScale});
+  const std::vector<RunPictures> pictures =
+      WritePictureSheets(experiment, [&](const RunPictures& run) {
+        WritePictureSheet(sheet_writer, figures_folder.path() / ("pictures-" + run.run_id), run,
+                          {});
+      });
   const std::vector<RunCauses> causes = FindCauses(experiment);
   figures_folder.Commit();
 

@@ -1,6 +1,8 @@
 // All strips of a run on one sheet.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -53,13 +55,21 @@ class Sheet {
     bold_ = text_;
     bold_.bold = true;
     FindColumns(style.width);
-    for (const std::string& title : run_.titles) {
-      const auto [what, where] = TitleParts(title);
+    NameColumns();
+    for (const std::string& head : heads_) {
+      const auto [what, where] = TitleParts(head);
       const std::size_t lines =
           WrappedText(what, cell_, bold_).size() + WrappedText(where, cell_, text_).size();
       header_ = std::max(header_, (static_cast<double>(lines) * kTextLine + 10.0) * u_);
     }
-    legend_top_ = header_ + static_cast<double>(run_.strips.size()) * (cell_ + gap());
+    key_top_ = header_;
+    for (const PictureStrip& strip : run_.strips) {
+      row_tops_.push_back(key_top_);
+      key_top_ += std::max(cell_, LabelOf(strip).height) + gap();
+    }
+    legend_top_ = key_top_;
+    if (!letter_key_.empty())
+      legend_top_ += (static_cast<double>(letter_key_.size()) + 0.5) * kTextLine * u_;
     PlaceLegend();
   }
 
@@ -67,7 +77,9 @@ class Sheet {
   double height() const { return std::ceil(height_); }
 
   void Draw(Canvas& canvas) const {
-    for (std::size_t i = 0; i < run_.titles.size(); ++i) DrawTitle(canvas, i);
+    for (std::size_t i = 0; i < heads_.size(); ++i) DrawHead(canvas, i);
+    DrawTextLines(canvas, {kEdge * u_, key_top_ + kTextLine * u_}, letter_key_, text_,
+                  kTextLine * u_);
     for (std::size_t row = 0; row < run_.strips.size(); ++row) DrawRow(canvas, row);
     for (const LegendBox& box : legend_) DrawBox(canvas, box);
   }
@@ -89,6 +101,25 @@ class Sheet {
     width_ = margin_ + columns * (cell_ + gap());
     // A sheet of one column still has room for its legend.
     if (!width) width_ = std::max(width_, margin_ + WidestBox() + 2.0 * kEdge * u_);
+  }
+
+  // Titles stand over their columns where all their words fit; else letters do, and a key below.
+  void NameColumns() {
+    const bool fit = std::all_of(run_.titles.begin(), run_.titles.end(), [&](const auto& title) {
+      std::istringstream words(title);
+      return std::all_of(std::istream_iterator<std::string>(words), {},
+                         [&](const auto& word) { return TextWidth(word, bold_) <= cell_; });
+    });
+    if (fit) {
+      heads_ = run_.titles;
+      return;
+    }
+    std::string key;
+    for (const std::string& title : run_.titles) {
+      heads_.emplace_back(1, static_cast<char>('a' + heads_.size()));
+      key += fmt::format("{}({}) {}", key.empty() ? "" : "; ", heads_.back(), title);
+    }
+    letter_key_ = WrappedText(key, width_ - 2.0 * kEdge * u_, text_);
   }
 
   std::vector<LegendBox> Boxes() const {
@@ -142,8 +173,8 @@ class Sheet {
     height_ = y + row_height + kEdge * u_;
   }
 
-  void DrawTitle(Canvas& canvas, std::size_t column) const {
-    const auto [what, where] = TitleParts(run_.titles[column]);
+  void DrawHead(Canvas& canvas, std::size_t column) const {
+    const auto [what, where] = TitleParts(heads_[column]);
     const auto what_lines = WrappedText(what, cell_, bold_);
     TextStyle bold = bold_, plain = text_;
     bold.anchor = plain.anchor = Anchor::kMiddle;
@@ -153,17 +184,27 @@ class Sheet {
                   WrappedText(where, cell_, text_), plain, line);
   }
 
+  struct RowLabel {
+    std::vector<std::string> label, sublabel;  // lines
+    double height;
+  };
+  RowLabel LabelOf(const PictureStrip& strip) const {
+    const double room = margin_ - 1.5 * kEdge * u_;
+    RowLabel label{WrappedText(strip.label, room, bold_), WrappedText(strip.sublabel, room, text_),
+                   0.0};
+    label.height = static_cast<double>(label.label.size() + label.sublabel.size()) * kTextLine * u_;
+    return label;
+  }
+
   void DrawRow(Canvas& canvas, std::size_t row) const {
     const PictureStrip& strip = run_.strips[row];
-    const double top = header_ + static_cast<double>(row) * (cell_ + gap());
-    const double room = margin_ - 1.5 * kEdge * u_, line = kTextLine * u_;
-    const auto label = WrappedText(strip.label, room, bold_);
-    const auto sublabel = WrappedText(strip.sublabel, room, text_);
-    const double lines = static_cast<double>(label.size() + sublabel.size());
-    const double first = top + 0.5 * cell_ - 0.5 * (lines - 1.0) * line;
+    const auto [label, sublabel, height] = LabelOf(strip);
+    const double line = kTextLine * u_, room = std::max(cell_, height);
+    const double first = row_tops_[row] + 0.5 * (room - height + line);
     DrawTextLines(canvas, {kEdge * u_, first}, label, bold_, line);
     DrawTextLines(canvas, {kEdge * u_, first + static_cast<double>(label.size()) * line}, sublabel,
                   text_, line);
+    const double top = row_tops_[row] + 0.5 * (room - cell_);
     for (std::size_t i = 0; i < strip.pictures.size(); ++i)
       canvas.Image({X(i), top}, cell_, cell_, strip.pictures[i]);
   }
@@ -202,7 +243,9 @@ class Sheet {
   double u_;
   TextStyle text_, bold_;
   double margin_ = 0.0, cell_ = 0.0, width_ = 0.0, height_ = 0.0;
-  double header_ = 0.0, legend_top_ = 0.0;
+  double header_ = 0.0, key_top_ = 0.0, legend_top_ = 0.0;
+  std::vector<std::string> heads_, letter_key_;
+  std::vector<double> row_tops_;
   std::vector<LegendBox> legend_;
 };
 

@@ -65,6 +65,13 @@ TextTable PaperTable(const ReportedExperiment& experiment) {
   return table;
 }
 
+// For an experiment without a finished run: each run and why it has no result.
+TextTable ProblemTable(const ReportedExperiment& experiment) {
+  TextTable table{{"run", "status"}, {}, {}};
+  for (const auto& run : experiment.runs) table.rows.push_back({{run.run_id}, {run.problem}});
+  return table;
+}
+
 // The variants' table and the comparison with the papers, without those that have no row.
 std::vector<TextTable> TablesOf(const ReportedExperiment& experiment) {
   const bool one_variant = ContendersOf(experiment).size() < 2;
@@ -72,7 +79,7 @@ std::vector<TextTable> TablesOf(const ReportedExperiment& experiment) {
                                                : ToText(TabulateVariants(experiment), "variant"),
                                    PaperTable(experiment)};
   std::erase_if(tables, [](const TextTable& table) { return table.rows.empty(); });
-  return tables;
+  return tables.empty() ? std::vector{ProblemTable(experiment)} : tables;
 }
 
 // Those that a column of differences can be taken from.

@@ -39,6 +39,10 @@ std::string WithoutBars(std::string text) {
   return text;
 }
 
+bool IsHeading(const std::vector<TextCell>& row, const TextTable& table) {
+  return row.size() == 1 && table.head.size() > 1;
+}
+
 }  // namespace
 
 std::string LatexEscaped(const std::string& text) {
@@ -61,15 +65,43 @@ std::string LatexEscaped(const std::string& text) {
   return escaped;
 }
 
+namespace {
+
+std::string LatexRow(const std::vector<std::string>& cells) {
+  std::string row;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    row += (i == 0 ? "" : " & ") + LatexEscaped(cells[i]);
+  return row + " \\\\\n";
+}
+
+// Units stand on a line of their own below the names, so that columns are no wider than they must.
+std::string LatexHead(const std::vector<std::string>& head) {
+  std::vector<std::string> names, units;
+  bool has_units = false;
+  for (const std::string& cell : head) {
+    const std::size_t unit = cell.ends_with(')') ? cell.rfind(" (") : std::string::npos;
+    names.push_back(cell.substr(0, unit));
+    units.push_back(unit == std::string::npos ? "" : cell.substr(unit + 1));
+    has_units = has_units || !units.back().empty();
+  }
+  return LatexRow(names) + (has_units ? LatexRow(units) : "");
+}
+
+}  // namespace
+
 std::string ToLatex(const TextTable& table) {
   std::string text;
   for (const std::string& note : table.notes) text += fmt::format("% {}\n", note);
   text += fmt::format("\\begin{{tabular}}{{l{}}}\n\\toprule\n",
                       std::string(table.head.size() - 1, 'r'));
-  for (std::size_t i = 0; i < table.head.size(); ++i)
-    text += (i == 0 ? "" : " & ") + LatexEscaped(table.head[i]);
-  text += " \\\\\n\\midrule\n";
+  text += LatexHead(table.head) + "\\midrule\n";
   for (const auto& row : table.rows) {
+    if (IsHeading(row, table)) {
+      text += fmt::format("{}\\multicolumn{{{}}}{{l}}{{\\emph{{{}}}}} \\\\\n",
+                          &row == &table.rows.front() ? "" : "\\addlinespace\n", table.head.size(),
+                          LatexEscaped(row[0].text));
+      continue;
+    }
     for (std::size_t i = 0; i < row.size(); ++i) {
       const std::string cell = LatexEscaped(row[i].text);
       text += (i == 0 ? "" : " & ") +
@@ -91,6 +123,7 @@ std::string ToMarkdown(const TextTable& table) {
     text += "|";
     for (const TextCell& cell : row)
       text += fmt::format(" {0}{1}{0} |", cell.bold ? "**" : "", WithoutBars(cell.text));
+    for (std::size_t i = row.size(); i < table.head.size(); ++i) text += " |";
     text += "\n";
   }
   for (const std::string& note : table.notes) text += "\n" + note + "\n";

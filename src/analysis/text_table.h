@@ -11,7 +11,8 @@ struct TextCell {
   bool bold = false;
 };
 
-// The first column is left-aligned, the others are right-aligned.
+// The first column is left-aligned, the others are right-aligned. A row of a single cell is a
+// heading over the rows that follow.
 struct TextTable {
   std::vector<std::string> head;
   std::vector<std::vector<TextCell>> rows;

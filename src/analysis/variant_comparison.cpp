@@ -55,6 +55,15 @@ bool SomePairHas(const std::vector<RunPair>& pairs, const Metric& metric) {
                      [&](const RunPair& pair) { return BothHave(pair, metric); });
 }
 
+// The metrics of `keys` that some pair has.
+std::vector<Metric> MetricsOf(const std::vector<RunPair>& pairs,
+                              const std::vector<std::string>& keys) {
+  std::vector<Metric> metrics;
+  for (const std::string& key : keys) metrics.push_back(FindMetric(key));
+  std::erase_if(metrics, [&](const Metric& metric) { return !SomePairHas(pairs, metric); });
+  return metrics;
+}
+
 // The metrics of Place::kComparison that some pair has and that are not 0 in all runs.
 std::vector<Metric> UsualMetrics(const std::vector<RunPair>& pairs) {
   std::vector<Metric> metrics = MetricsShownIn(Place::kComparison);
@@ -67,9 +76,13 @@ std::vector<Metric> UsualMetrics(const std::vector<RunPair>& pairs) {
 }
 
 std::vector<Metric> MetricsToCompare(const std::vector<RunPair>& pairs,
-                                     const std::vector<std::string>& asked) {
-  if (asked.empty()) return UsualMetrics(pairs);
+                                     const std::vector<std::string>& asked,
+                                     const ExperimentRecord& experiment) {
   std::vector<Metric> metrics;
+  if (asked.empty()) {
+    metrics = MetricsOf(pairs, experiment.table_columns);
+    return metrics.empty() ? UsualMetrics(pairs) : metrics;
+  }
   for (const std::string& key : asked) {
     metrics.push_back(FindMetric(key));
     if (!SomePairHas(pairs, metrics.back()))
@@ -145,12 +158,13 @@ void AdjustTogether(const std::vector<VariantComparison*>& rows) {
 }
 
 std::vector<VariantComparison> Table(const std::vector<PairedRuns>& all,
-                                     const std::vector<std::string>& asked) {
+                                     const std::vector<std::string>& asked,
+                                     const ExperimentRecord& experiment) {
   std::vector<RunPair> pairs;
   for (const PairedRuns& paired : all)
     pairs.insert(pairs.end(), paired.pairs.begin(), paired.pairs.end());
   std::vector<VariantComparison> rows;
-  for (const Metric& metric : MetricsToCompare(pairs, asked)) {
+  for (const Metric& metric : MetricsToCompare(pairs, asked, experiment)) {
     for (const PairedRuns& paired : all) {
       const VariantComparison row = Compared(paired, metric);
       if (row.other_spread.count > 0) rows.push_back(row);
@@ -315,7 +329,7 @@ std::vector<VariantComparison> CompareVariants(const ReportedExperiment& experim
   for (const Contender& contender : contenders) {
     if (&contender != &*chosen) all.push_back(Paired(*chosen, contender));
   }
-  return Table(all, metrics);
+  return Table(all, metrics, experiment.record);
 }
 
 VariantTable TabulateVariants(const ReportedExperiment& experiment) {
@@ -394,7 +408,7 @@ std::vector<VariantComparison> CompareExperiments(const ReportedExperiment& refe
   together.unpaired = static_cast<int>(reference.finished().size() + other.finished().size() -
                                        2 * together.pairs.size());
   if (all.size() > 1) all.push_back(std::move(together));
-  return Table(all, metrics);
+  return Table(all, metrics, reference.record);
 }
 
 }  // namespace vitruvia

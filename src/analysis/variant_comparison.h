@@ -37,9 +37,10 @@ struct VariantComparison {
 std::size_t DefaultContender(const ReportedExperiment& experiment,
                              const std::vector<Contender>& contenders);
 
-// Compares every contender with `reference`; "": the default one. `metrics` empty: the most
-// important ones available. A contender without any pair in a metric has no row for it. ConfigError
-// if there is nothing to compare, or if a contender or metric does not exist.
+// Compares every contender with `reference`; "": the default one. `metrics` empty: the experiment's
+// table_columns, or else the most important ones available. A contender without any pair in a
+// metric has no row for it. ConfigError if there is nothing to compare, or if a contender or metric
+// does not exist.
 std::vector<VariantComparison> CompareVariants(const ReportedExperiment& experiment,
                                                const std::string& reference,
                                                const std::vector<std::string>& metrics);
@@ -84,7 +85,8 @@ std::string RelativeText(const VariantComparison& row);
 
 nlohmann::json ToJson(const std::vector<VariantComparison>& rows);
 std::string ToCsv(const std::vector<VariantComparison>& rows);
-// Variant, mean ± standard deviation, difference, interval, pairs and verdict.
+// Variant, mean ± standard deviation, difference, interval and pairs; differences that are shown
+// are bold.
 TextTable ToText(const std::vector<VariantComparison>& rows);
 
 // The number of independent units: "8 scenes", or "6 pairs" of one scene.

@@ -1,4 +1,5 @@
 // Comparisons of variants in words, as JSON and as CSV.
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -15,6 +16,35 @@ nlohmann::json NumberOrNull(double value) {
 
 nlohmann::json SpreadToJson(const SampleSpread& spread) {
   return {{"mean", NumberOrNull(spread.mean)}, {"deviation", NumberOrNull(spread.deviation)}};
+}
+
+// "setting=" where all first cells are values of one setting; else "".
+std::string CommonSetting(const TextTable& table) {
+  std::string common;
+  for (const auto& row : table.rows) {
+    if (row.size() < 2) continue;
+    const std::string& name = row[0].text;
+    const std::string setting = name.substr(0, name.find('=') + 1);
+    if (setting.empty() || name.find(',') != std::string::npos) return "";
+    if (!common.empty() && setting != common) return "";
+    common = setting;
+  }
+  return common;
+}
+
+// Where the first column has values of one setting, its name goes into the head.
+void NameSettingOnce(TextTable& table) {
+  const std::string setting = CommonSetting(table);
+  if (setting.empty()) return;
+  table.head[0] = setting.substr(0, setting.size() - 1);
+  for (auto& row : table.rows) {
+    if (row.size() > 1) row[0].text.erase(0, setting.size());
+  }
+}
+
+bool IsShown(const VariantComparison& row) {
+  const Difference verdict = row.comparison.verdict;
+  return verdict == Difference::kLower || verdict == Difference::kHigher;
 }
 
 }  // namespace
@@ -53,31 +83,36 @@ std::string MethodText(std::size_t count) {
       "Differences are of pairs of the same scene and seed; intervals are {:.0f} % bootstrap "
       "intervals that draw scenes, then seeds. A difference is called one only if its interval "
       "excludes zero, Student's test over the scenes (of a single scene: over its pairs) does with "
-      "Holm's correction for {} comparisons, and there are at least {} pairs.",
-      1e2 * confidence, count, FewestPairs(confidence));
+      "Holm's correction for {} comparison{}, and there are at least {} pairs.",
+      1e2 * confidence, count, count == 1 ? "" : "s", FewestPairs(confidence));
 }
 
 TextTable ToText(const std::vector<VariantComparison>& rows) {
-  TextTable table{{"variant", "mean ± sd", "difference", "95 % interval", "n", "verdict"}, {}, {}};
+  TextTable table{{"variant", "mean ± sd", "difference", "95 % interval", "n"}, {}, {}};
   std::string metric;
+  int scenes = 0;
   for (const VariantComparison& row : rows) {
     if (row.metric.key != metric) {
-      table.rows.push_back({{fmt::format("{}: {}", Titled(row.metric), row.reference)},
+      table.rows.push_back({{Titled(row.metric)}});
+      table.rows.push_back({{row.reference},
                             {SpreadText(row.reference_spread, row.metric)},
+                            {"reference"},
                             {""},
-                            {""},
-                            {fmt::format("{}", row.reference_spread.count)},
-                            {"reference"}});
+                            {fmt::format("{}", row.reference_spread.count)}});
     }
     metric = row.metric.key;
     table.rows.push_back({{row.other},
                           {SpreadText(row.other_spread, row.metric)},
-                          {PrintedSigned(row.comparison.difference.mean, row.metric)},
+                          {PrintedSigned(row.comparison.difference.mean, row.metric), IsShown(row)},
                           {IntervalText(row)},
-                          {UnitsText(row.comparison)},
-                          {VerdictText(row)}});
+                          {fmt::format("{}", row.comparison.difference.count)}});
+    scenes = std::max(scenes, row.comparison.scenes);
   }
-  table.notes = {MethodText(rows.size())};
+  NameSettingOnce(table);
+  table.notes = {
+      fmt::format("n: pairs, of {} scene{}. Bold: differences that are shown; no other one is.",
+                  scenes, scenes == 1 ? "" : "s"),
+      MethodText(rows.size())};
   return table;
 }
 
@@ -99,6 +134,7 @@ TextTable ToText(const VariantTable& table, const std::string& first_column) {
         "Bold: the best of a column whose difference from the second best is shown.");
   if (table.rows.size() > 1 && !table.reference.empty())
     text.notes.push_back(MethodText(table.metrics.size()));
+  NameSettingOnce(text);
   return text;
 }
 

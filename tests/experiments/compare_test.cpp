@@ -27,7 +27,7 @@ TEST_F(Compare, PrintsATableAndWritesIt) {
       CallVitruvia({"compare", files_.File("out"), "-o", files_.File("tables/variants.json")});
   ASSERT_EQ(outcome.code, static_cast<int>(ExitCode::kSuccess)) << outcome.error;
   EXPECT_THAT(outcome.out, HasSubstr("mean L2 error / diagonal"));
-  EXPECT_THAT(outcome.out, HasSubstr("1 pairs  too few pairs"));
+  EXPECT_THAT(outcome.out, HasSubstr("1 pair  too few pairs"));
   const Json row = ReadJsonFile(files_ / "tables/variants.json").at("rows").at(0);
   EXPECT_EQ(row.at("reference"), "all");
   EXPECT_EQ(row.at("other"), "no_axis");

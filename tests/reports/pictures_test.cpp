@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "core/files.h"
 #include "geometry/zbuffer.h"
 #include "reports/drawing/color_maps.h"
 #include "reports/pictures/mesh_view.h"
@@ -60,6 +61,35 @@ TEST(Pictures, ErrorMapOfTheTruthIsPaleAllOver) {
   }
   EXPECT_GT(red_above, 50);
   EXPECT_EQ(red_below, 0);
+}
+
+RunPictures OneStrip() {
+  RunPictures run;
+  run.run_id = "run";
+  run.titles = PictureTitles();
+  PictureStrip strip;
+  strip.label = "fit.pair_cutoff_m=0.02,stopping.max_iterations=18";
+  for (std::size_t i = 0; i < run.titles.size(); ++i)
+    strip.pictures.emplace_back(ColorImage(4, 4, ColorPixel{9, 9, 9, 255}));
+  run.strips = {strip, strip};
+  return run;
+}
+
+std::string SheetOf(const RunPictures& run, const SheetStyle& style) {
+  const TemporaryFolder root;
+  WritePictureSheet(DrawingWriter({.formats = {FileFormat::kSvg}}), root.path() / "sheet", run,
+                    style);
+  return ReadWholeFile(root.path() / "sheet.svg");
+}
+
+TEST(PictureSheet, NamesNarrowColumnsByLetters) {
+  constexpr double kColumn = 238.0, kTextPt = 8.0;  // 84 mm
+  const std::string narrow = SheetOf(OneStrip(), {kTextPt, kColumn});
+  EXPECT_THAT(narrow, testing::HasSubstr(">g</text>"));
+  EXPECT_THAT(narrow, testing::HasSubstr("(a) depth; (b)"));
+  const std::string usual = SheetOf(OneStrip(), {});
+  EXPECT_THAT(usual, testing::HasSubstr(">depth</text>"));
+  EXPECT_THAT(usual, testing::Not(testing::HasSubstr("(a)")));
 }
 
 TEST(Pictures, AreTakenWhereTheRunHasFrames) {

@@ -1,5 +1,6 @@
 #include "reports/drawing/plot.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -41,7 +42,9 @@ TEST(Axis, TicksAreRoundAndPrintedWithAsManyDecimalsAsTheyNeed) {
   EXPECT_THAT(Labels(Axis::Linear(96.3, 99.9), 4), testing::ElementsAre("97", "98", "99"));
   EXPECT_THAT(Labels(Axis::Logarithmic(3.0, 286.0), 10),
               testing::ElementsAre("2", "5", "10", "20", "50", "100", "200", "500"));
-  EXPECT_THAT(Labels(Axis::Logarithmic(3.0, 286.0), 5), testing::ElementsAre("10", "100"));
+  // Decades alone only where there are three of them.
+  EXPECT_EQ(Labels(Axis::Logarithmic(3.0, 286.0), 5).size(), 8u);
+  EXPECT_THAT(Labels(Axis::Logarithmic(3.0, 2860.0), 5), testing::ElementsAre("10", "100", "1000"));
   EXPECT_THAT(Labels(Axis::Logarithmic(0.5, 0.5), 5), testing::ElementsAre("0.5", "1"));
 }
 
@@ -205,6 +208,67 @@ TEST(DrawFigure, KeepsItsTextInsideAtAnyWidth) {
       EXPECT_LE(std::max(start, end), (upwards ? height : width) + 0.5) << text->text;
     }
   }
+}
+
+constexpr FigureStyle kColumn{238.0, 8.0};  // 84 mm and 8 pt
+
+std::vector<TextShape> TextsOf(const Figure& figure, const FigureStyle& style) {
+  Canvas canvas;
+  DrawFigure(canvas, figure, style);
+  std::vector<TextShape> texts;
+  for (const PageShape& shape : canvas.shapes()) {
+    if (const auto* text = std::get_if<TextShape>(&shape)) texts.push_back(*text);
+  }
+  return texts;
+}
+
+bool HasText(const std::vector<TextShape>& texts, const std::string& wanted) {
+  return std::any_of(texts.begin(), texts.end(),
+                     [&](const TextShape& text) { return text.text == wanted; });
+}
+
+TEST(DrawFigure, NamesBesideBarsAreWholeWhereTheyFit) {
+  Series bars;
+  bars.mark = Mark::kStackedBars;
+  bars.x = {1.0, 2.0};
+  bars.y = {0.0, 1.0};
+  Panel panel{"", "time (ms)", "", {bars}, {}, {}};
+  panel.y_ticks = {{0.0, "fitted_subject"}, {1.0, "fit.pair_cutoff_m=0.02"}};
+  Figure figure;
+  figure.panels = {panel};
+  const std::vector<TextShape> texts = TextsOf(figure, kColumn);
+  EXPECT_TRUE(HasText(texts, "fitted_subject"));
+  EXPECT_TRUE(HasText(texts, "fit.pair_cutoff_m=0.02"));
+}
+
+TEST(DrawFigure, ASinglePanelIsAsWideAsTheFigure) {
+  Series line;
+  line.x = {0.0, 4.0};
+  line.y = {0.00076, 0.00082};
+  Figure figure;
+  figure.columns = 2;
+  figure.panels = {{"", "time (ms)", "mean L2 error / diagonal", {line}, {}, {}}};
+  double last_tick = 0.0;
+  for (const TextShape& text : TextsOf(figure, kColumn)) {
+    if (text.text == "4") last_tick = text.at.x;
+  }
+  EXPECT_GT(last_tick, 0.8 * kColumn.width);
+}
+
+TEST(DrawFigure, CellsAreAtLeastAsWideAsTheirNumbers) {
+  Panel panel{"mean joint error (mm)", "cutoff", "iterations", {}, {}, {}};
+  panel.x_ticks = {{0.0, "0.02"}, {1.0, "0.08"}, {2.0, "0.32"}};
+  panel.y_ticks = {{0.0, "2"}};
+  panel.cells = CellMap{{{135.86, 110.46, 114.01}}, {{"135.86", "110.46", "114.01"}}, {}};
+  Figure figure;
+  figure.columns = 2;
+  figure.panels = {panel, panel};
+  std::vector<TextShape> row;
+  for (const TextShape& text : TextsOf(figure, kColumn)) {
+    if (text.text == "135.86" || text.text == "110.46") row.push_back(text);
+  }
+  ASSERT_EQ(row.size(), 4u);
+  EXPECT_GT(row[1].at.x - row[0].at.x, TextWidth(row[0].text, row[0].style));
 }
 
 TEST(WrappedText, BreaksAtSpacesAndThenAtSignsOfNames) {

@@ -1,5 +1,5 @@
 # A recording as docs/own_data.md describes it: depth images of a room without and then with a
-# person, a subject and an experiment, all from a small synthetic scene. $EDITOR changes nothing.
+# person, all from a small synthetic scene. $EDITOR changes nothing.
 export EDITOR=true
 python3 - <<'PYTHON'
 import json
@@ -12,14 +12,10 @@ with open("room.json", "w", encoding="utf-8") as file:
     json.dump(scene, file)
 with open("recording.json", "w", encoding="utf-8") as file:
     json.dump({"images": "depth", "camera": scene["view"]["camera"], "unit_m": 0.001,
-               "empty_frames": {"first": 0, "count": 5},
+               "empty_frames": {"first": 0, "count": 5}, "frames": {"first": 5},
                "cutout": {"background": {"source": "empty_frames"}, "far_m": 8}}, file)
-with open("mine.json", "w", encoding="utf-8") as file:
-    json.dump({"title": "Mine", "sequences": ["seq"], "methods": ["configs/methods/realtime_scape.json"],
-               "variants": [{"name": "mine", "subject": "subject"}]}, file)
 PYTHON
 build/vitruvia synth room.json -o made
-cp -r made/subject subject
 mkdir depth
 for image in made/empty_room/*.png; do cp "$image" "depth/0_$(basename "$image")"; done
 for image in made/depth/*.png; do cp "$image" "depth/1_$(basename "$image")"; done
