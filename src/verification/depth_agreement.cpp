@@ -85,7 +85,8 @@ void Vote(const DepthImage& measured, const DepthImage& rendered, const DepthIma
 OutlineDifference CompareOutlines(const DepthImage& measured, const DepthImage& rendered) {
   const Outline a = OutlineOf(measured), b = OutlineOf(rendered);
   const Eigen::Vector2d scale = a.spread.cwiseQuotient(b.spread), shift = a.center - b.center;
-  return {scale.x(), scale.y(), shift.x(), shift.y()};
+  const Eigen::Vector2d edges = std::sqrt(3.0) * (a.spread - b.spread).cwiseAbs();
+  return {scale.x(), scale.y(), edges.x(), edges.y(), shift.x(), shift.y()};
 }
 
 }  // namespace vitruvia

@@ -35,10 +35,12 @@ struct MirrorVotes {
 void Vote(const DepthImage& measured, const DepthImage& rendered, const DepthImage& mirrored,
           MirrorVotes& votes);
 
-// Outline of the measured pixels against the rendered ones: ratio of the spread along u and v, and
-// how far the centre is shifted along them, in pixels.
+// Outline of the measured pixels against the rendered ones, along u and v: ratio of the spread; how
+// far each edge is moved by that, pixels (of an even spread, whose standard deviation is its width
+// / √12); and how far the centre is shifted, pixels.
 struct OutlineDifference {
-  double scale_u = 1.0, scale_v = 1.0, shift_u_px = 0.0, shift_v_px = 0.0;
+  double scale_u = 1.0, scale_v = 1.0, edges_u_px = 0.0, edges_v_px = 0.0;
+  double shift_u_px = 0.0, shift_v_px = 0.0;
 };
 OutlineDifference CompareOutlines(const DepthImage& measured, const DepthImage& rendered);
 

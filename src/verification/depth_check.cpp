@@ -32,7 +32,8 @@ constexpr std::array<ImageTurn, 3> kImageTurns{
 struct SurfaceComparison {
   DepthAgreement sum;
   std::array<MirrorVotes, kImageTurns.size()> votes;
-  std::vector<double> scales_u, scales_v, shifts_u_px, shifts_v_px;  // of frames with like outlines
+  std::vector<double> scales_u, scales_v, edges_u_px, edges_v_px, shifts_u_px,
+      shifts_v_px;  // of frames with like outlines
   std::optional<Finding> frame_problem;
 };
 
@@ -69,6 +70,8 @@ SurfaceComparison CompareWithSurface(const SequenceReader& sequence,
     const OutlineDifference outline = CompareOutlines(measured, rendered);
     all.scales_u.push_back(outline.scale_u);
     all.scales_v.push_back(outline.scale_v);
+    all.edges_u_px.push_back(outline.edges_u_px);
+    all.edges_v_px.push_back(outline.edges_v_px);
     all.shifts_u_px.push_back(outline.shift_u_px);
     all.shifts_v_px.push_back(outline.shift_v_px);
   }
@@ -102,7 +105,11 @@ void WarnOfSlightDifferences(const SequenceInfo& info, const SurfaceComparison& 
                 ratio, all.sum.both, DepthUnitCause(ratio, info.depth_unit_m)));
   if (all.scales_u.empty()) return;
   const double scale_u = Quantile(all.scales_u, 0.5), scale_v = Quantile(all.scales_v, 0.5);
-  if (std::max(std::abs(scale_u - 1.0), std::abs(scale_v - 1.0)) > kOutlineScaleWarning)
+  const auto is_scaled = [](double scale, const std::vector<double>& edges_px) {
+    return std::abs(scale - 1.0) > kOutlineScaleWarning &&
+           Quantile(edges_px, 0.5) > kOutlineEdgeWarning_px;
+  };
+  if (is_scaled(scale_u, all.edges_u_px) || is_scaled(scale_v, all.edges_v_px))
     findings.push_back(
         Warning("sequence.json: camera: the person's outline in depth/ is {:.3f} times as wide and "
                 "{:.3f} times as high as the true surface's; is fx {:.4g} and fy {:.4g} meant "

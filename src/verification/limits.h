@@ -73,12 +73,13 @@ inline constexpr double kFrameRatio = 1.25;         // … and whose depths diff
 inline constexpr double kMirrorVotes = 1.5;         // votes for the mirror image / against
 inline constexpr long kMirrorFewestVotes = 100;
 inline constexpr double kDepthRatioWarning = 0.03;
-inline constexpr double kOutlineScaleWarning = 0.06;
-inline constexpr double kOutlineShiftWarning = 0.04;  // of the image's width
-inline constexpr double kJointBehindDepth_m = 0.40;   // depth before a joint, at most
-inline constexpr double kDepthBehindJoint_m = 0.10;   // depth behind a joint, at most
-inline constexpr double kCauseScore = 0.5;            // a cause explains this share of pixels
-inline constexpr double kCauseGain = 2.0;             // and this many times what is stated
+inline constexpr double kOutlineScaleWarning = 0.06;    // and …
+inline constexpr double kOutlineEdgeWarning_px = 1.25;  // … more than a sensor loses at an edge
+inline constexpr double kOutlineShiftWarning = 0.04;    // of the image's width
+inline constexpr double kJointBehindDepth_m = 0.40;     // depth before a joint, at most
+inline constexpr double kDepthBehindJoint_m = 0.10;     // depth behind a joint, at most
+inline constexpr double kCauseScore = 0.5;              // a cause explains this share of pixels
+inline constexpr double kCauseGain = 2.0;               // and this many times what is stated
 inline constexpr double kNearestBody_m = 0.2, kFarthestBody_m = 20.0;  // median depth
 inline constexpr double kApparentSize = 1.6;  // cloud / subject, either way
 
