@@ -176,6 +176,27 @@ std::vector<float> EstimatedJoints(const EstimateReader& estimate) {
   return values;
 }
 
+// Of each joint of each frame the lower triangle L of C = L Lᵀ, row by row, metres; NaN where the
+// tracker gave no covariance C. L carries the unit sphere to the ellipsoid of one standard
+// deviation.
+std::vector<float> CovarianceFactors(const EstimateReader& estimate) {
+  std::vector<float> values;
+  for (const FrameEstimate& frame : estimate.frames()) {
+    for (std::size_t joint = 0; joint < frame.joints.size(); ++joint) {
+      Matrix3<double> factor = Matrix3<double>::Constant(NAN);
+      if (frame.has_covariances()) {
+        const Eigen::LLT<Matrix3<double>> cholesky(frame.covariance_m2(joint));
+        if (cholesky.info() == Eigen::Success) factor = cholesky.matrixL();
+      }
+      for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column <= row; ++column)
+          values.push_back(static_cast<float>(factor(row, column)));
+      }
+    }
+  }
+  return values;
+}
+
 // Numbers per frame, in the catalogue's units.
 Json SeriesContent(const RunRecord& record, PackedArrays& arrays) {
   Json list = Json::array();
@@ -317,6 +338,10 @@ Json RunContent(const OpenedRun& run, int sequence, const PageFrame& page, Packe
                   {"causes", CauseContent(run.diagnosis)},
                   {"events", EventContent(run.diagnosis)},
                   {"lost", run.diagnosis.lost_frames}};
+  if (std::ranges::any_of(run.estimate->frames(), &FrameEstimate::has_covariances)) {
+    content["uncertainty"] = arrays.Floats(CovarianceFactors(*run.estimate),
+                                           static_cast<int>(run.estimate->frames().size()));
+  }
   if (run.sequence->info().surface) {
     const VertexColors colors = CompareWithTruth(run, frames, mesh);
     content["surface"]["error"] = LengthContent(surface, colors.errors_m, count, arrays);

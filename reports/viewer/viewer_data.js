@@ -155,7 +155,14 @@ async function unpacked(value, arrays) {
   return Object.fromEntries(Object.keys(value).map((key, i) => [key, parts[i]]));
 }
 
-// Numbers per frame of all runs, by name: those of the record and the error of each joint.
+// How far a joint is expected to be off, metres: the root of the trace of its covariance, from the
+// six numbers of the covariance's factor.
+function expectedError_m(factor) {
+  return Math.hypot(...factor);
+}
+
+// Numbers per frame of all runs, by name: those of the record, and of each joint the error and the
+// error that the tracker expects.
 // values[run][frame] is NaN where there is none.
 function seriesOf(page) {
   const all = new Map();
@@ -167,6 +174,15 @@ function seriesOf(page) {
   };
   page.runs.forEach((run, r) => {
     for (const series of run.series) add(r, series, series.values.values);
+    if (run.uncertainty) {
+      page.bones.forEach(({joint}, bone) => {
+        const values = Float32Array.from({length: run.frames}, (_, frame) =>
+            1e3 * expectedError_m(run.uncertainty.at(frame).subarray(6 * bone, 6 * bone + 6)));
+        add(r, {key: "uncertainty:" + joint, label: "predicted error: " + joint.replaceAll("_", " "),
+                unit: "mm", definition: "Root of the trace of the covariance that the tracker gives the joint."},
+            values);
+      });
+    }
     const truth = page.sequences[run.sequence].joints;
     if (!truth) return;
     truth.names.forEach((name, at) => {
