@@ -6,6 +6,7 @@
 #include "reports/figures/run_plots.h"
 #include "reports/pages/html_page.h"
 #include "reports/pictures/cause_pictures.h"
+#include "reports/pictures/drawn_before.h"
 #include "reports/pictures/pictures.h"
 #include "reports/pictures/side_by_side.h"
 
@@ -15,20 +16,33 @@ namespace {
 
 constexpr const char* kFiguresMark = "README";
 
-// Draws all pictures and writes each run's sheet. What is returned holds them encoded only.
+// Draws pictures and writes their sheets. What is returned holds them encoded only.
 std::vector<RunPictures> WritePictureSheets(const ReportedExperiment& experiment,
-                                            const DrawingWriter& writer, const SheetStyle& style,
-                                            const fs::path& folder) {
+                                            const DrawnBefore& before, const DrawingWriter& writer,
+                                            const SheetStyle& style, const fs::path& folder) {
   const auto write_sheet = [&](RunPictures& run) {
     if (run.strips.empty()) return;
-    WritePictureSheet(writer, folder / ("pictures-" + run.run_id), run, style);
+    WritePictureSheet(writer, SheetStem(folder, run.run_id), run, style);
     for (PictureStrip& strip : run.strips) {
       for (Picture& picture : strip.pictures) picture.image = {};
     }
   };
-  std::vector<RunPictures> pictures = MakeSideBySide(experiment, write_sheet);
-  for (RunPictures& run : MakePictures(experiment, write_sheet)) pictures.push_back(std::move(run));
+  std::vector<RunPictures> pictures = MakeSideBySide(experiment, before, write_sheet);
+  for (RunPictures& run : MakePictures(experiment, before, write_sheet))
+    pictures.push_back(std::move(run));
   return pictures;
+}
+
+// The sheets of pictures that were not drawn anew.
+void TakeOverSheets(const std::vector<RunPictures>& pictures, const fs::path& from,
+                    const fs::path& to) {
+  for (const RunPictures& run : pictures) {
+    for (const char* ending : {".svg", ".png"}) {
+      const fs::path file = SheetStem(to, run.run_id).concat(ending);
+      if (!run.strips.empty() && !fs::exists(file))
+        fs::copy_file(SheetStem(from, run.run_id).concat(ending), file);
+    }
+  }
 }
 
 // The figure as LaTeX takes it, with its caption.
@@ -68,7 +82,7 @@ fs::path WritePaperFigures(const fs::path& experiment_folder, const PaperFormat&
     WriteWholeFile(folder.path() / (figure.name + ".txt"), CaptionFile(figure));
     WriteWholeFile(folder.path() / (figure.name + ".tex"), LatexFigure(figure));
   }
-  WritePictureSheets(experiment, writer, {format.text_pt, format.width_pt}, folder.path());
+  WritePictureSheets(experiment, {}, writer, {format.text_pt, format.width_pt}, folder.path());
   folder.Commit();
   return experiment_folder / "paper";
 }
@@ -76,15 +90,17 @@ fs::path WritePaperFigures(const fs::path& experiment_folder, const PaperFormat&
 fs::path WriteReport(const fs::path& experiment_folder) {
   const ReportedExperiment experiment = ReadExperiment(experiment_folder);
 
-  StagedFolder figures_folder(experiment_folder / "figures", kFiguresMark);
-  WriteWholeFile(figures_folder.path() / kFiguresMark,
-                 "Drawn by vitruvia; drawn anew with each report.\n");
-  const std::vector<DrawnFigure> figures =
-      DrawFigures(MakeFigures(experiment), figures_folder.path());
+  const fs::path figures_folder = experiment_folder / "figures";
+  const DrawnBefore before(experiment, figures_folder);
+  StagedFolder staged(figures_folder, kFiguresMark);
+  WriteWholeFile(staged.path() / kFiguresMark, "Drawn by vitruvia; written by each report.\n");
+  const std::vector<DrawnFigure> figures = DrawFigures(MakeFigures(experiment), staged.path());
   const std::vector<RunPictures> pictures = WritePictureSheets(
-      experiment, DrawingWriter({.png_scale = kSheetPngScale}), {}, figures_folder.path());
-  const std::vector<RunCauses> causes = FindCauses(experiment);
-  figures_folder.Commit();
+      experiment, before, DrawingWriter({.png_scale = kSheetPngScale}), {}, staged.path());
+  TakeOverSheets(pictures, figures_folder, staged.path());
+  const std::vector<RunCauses> causes = FindCauses(experiment, before);
+  before.Keep(pictures, causes, staged.path());
+  staged.Commit();
 
   WriteWholeFile(experiment_folder / "table.csv", ToCsv(experiment));
   WriteWholeFile(experiment_folder / "table.tex", ToLatex(experiment));

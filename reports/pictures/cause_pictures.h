@@ -20,8 +20,10 @@ struct RunCauses {
                                   // sees them
 };
 
+class DrawnBefore;
+
 // One entry per finished tracking run. What a sequence says is gathered once for all its runs;
-// sequences go on all cores.
-std::vector<RunCauses> FindCauses(const ReportedExperiment& experiment);
+// sequences go on all cores. What was found before is taken as it is.
+std::vector<RunCauses> FindCauses(const ReportedExperiment& experiment, const DrawnBefore& before);
 
 }  // namespace vitruvia
