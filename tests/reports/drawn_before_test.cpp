@@ -75,10 +75,13 @@ TEST_F(DrawnBeforeTest, ChangedPictureFramesLeaveNothing) {
 
 TEST_F(DrawnBeforeTest, OtherColoursOfErrorsAreDrawnAnew) {
   ExperimentRecord experiment = ReadExperiment(folder_).record;
-  experiment.run_ids = {kOtherScene};  // the scale of errors is now its own
+  experiment.picture_frames = {3};  // when the arms are farthest off
   WriteExperimentRecord(folder_, experiment);
-  EXPECT_THAT(Before().Pictures(kOtherScene), NotNull());
-  EXPECT_THAT(DrawnAnew(), ElementsAre(kOtherScene));
+  WriteReport(folder_);
+  experiment.run_ids = {kExactRun};  // the scale of errors is now its own
+  WriteExperimentRecord(folder_, experiment);
+  EXPECT_THAT(Before().Pictures(kExactRun), NotNull());
+  EXPECT_THAT(DrawnAnew(), ElementsAre(kExactRun));
 }
 
 TEST_F(DrawnBeforeTest, AMissingSheetIsDrawnAnew) {
