@@ -183,7 +183,8 @@ Margins MarginsOf(const Panel& panel, double width, double height, const Texts& 
 
 int ColumnsOf(const Figure& figure, const FigureStyle& style) {
   const double narrowest = kNarrowestPanel * style.text_size / kUsualText;
-  return std::clamp(static_cast<int>(style.width / narrowest), 1, std::max(figure.columns, 1));
+  const int most = std::min(figure.columns, static_cast<int>(figure.panels.size()));
+  return std::clamp(static_cast<int>(style.width / narrowest), 1, std::max(most, 1));
 }
 
 // The most lines that a name beside an axis needs.

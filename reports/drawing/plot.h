@@ -63,7 +63,7 @@ struct Panel {
 struct Figure {
   std::string name;            // of its files, without ending
   std::string title, caption;  // plain text
-  int columns = 1;             // of panels, at most; rows follow
+  int columns = 1;             // of panels, at most; rows follow, and few panels are wider
   std::vector<Panel> panels;
   // What the legend's names stand for: name → ids of runs. Written beside figures of papers, and
   // said where a pointer is on a point or line.
