@@ -64,7 +64,7 @@ struct Panel {
 struct Figure {
   std::string name;            // of its files, without ending
   std::string title, caption;  // plain text
-  int columns = 1;             // of panels, at most; rows follow
+  int columns = 1;             // of panels, at most; rows follow, and few panels are wider
   std::vector<Panel> panels;
   // Runs behind the legend's names: name → ids of runs. Written beside figures for papers, and
   // shown on hover.

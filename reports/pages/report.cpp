@@ -7,6 +7,7 @@
 #include "reports/figures/run_plots.h"
 #include "reports/pages/html_page.h"
 #include "reports/pictures/cause_pictures.h"
+#include "reports/pictures/drawn_before.h"
 #include "reports/pictures/pictures.h"
 #include "reports/pictures/side_by_side.h"
 
@@ -16,9 +17,9 @@ namespace {
 
 constexpr const char* kFiguresMark = "README";
 
-// Draws all pictures and writes each run's sheet. What is returned holds them encoded only.
+// Draws pictures and writes their sheets. What is returned holds them encoded only.
 std::vector<RunPictures> WritePictureSheets(const ReportedExperiment& experiment,
-                                            const PictureUse& write) {
+                                            const DrawnBefore& before, const PictureUse& write) {
   const auto write_sheet = [&](RunPictures& run) {
     if (run.strips.empty()) return;
     write(run);
@@ -26,9 +27,22 @@ std::vector<RunPictures> WritePictureSheets(const ReportedExperiment& experiment
       for (Picture& picture : strip.pictures) picture.image = {};
     }
   };
-  std::vector<RunPictures> pictures = MakeSideBySide(experiment, write_sheet);
-  for (RunPictures& run : MakePictures(experiment, write_sheet)) pictures.push_back(std::move(run));
+  std::vector<RunPictures> pictures = MakeSideBySide(experiment, before, write_sheet);
+  for (RunPictures& run : MakePictures(experiment, before, write_sheet))
+    pictures.push_back(std::move(run));
   return pictures;
+}
+
+// The sheets of pictures that were not drawn anew.
+void TakeOverSheets(const std::vector<RunPictures>& pictures, const fs::path& from,
+                    const fs::path& to) {
+  for (const RunPictures& run : pictures) {
+    for (const char* ending : {".svg", ".png"}) {
+      const fs::path file = SheetStem(to, run.run_id).concat(ending);
+      if (!run.strips.empty() && !fs::exists(file))
+        fs::copy_file(SheetStem(from, run.run_id).concat(ending), file);
+    }
+  }
 }
 
 // The figure as LaTeX takes it, with its caption.
@@ -85,7 +99,7 @@ fs::path WritePaperFigures(const fs::path& experiment_folder, const PaperFormat&
                  [&](Canvas& canvas) { DrawFigure(canvas, figure, style); });
     WriteCaption(figure, folder.path());
   }
-  WritePictureSheets(experiment, [&](const RunPictures& run) {
+  WritePictureSheets(experiment, {}, [&](const RunPictures& run) {
     const Figure figure = SheetFigure(run);
     WritePictureSheet(writer, folder.path() / figure.name, run, {format.text_pt, format.width_pt});
     WriteCaption(figure, folder.path());
@@ -97,19 +111,20 @@ fs::path WritePaperFigures(const fs::path& experiment_folder, const PaperFormat&
 fs::path WriteReport(const fs::path& experiment_folder) {
   const ReportedExperiment experiment = ReadExperiment(experiment_folder);
 
-  StagedFolder figures_folder(experiment_folder / "figures", kFiguresMark);
-  WriteWholeFile(figures_folder.path() / kFiguresMark,
-                 "Drawn by vitruvia; drawn anew with each report.\n");
-  const std::vector<DrawnFigure> figures =
-      DrawFigures(MakeFigures(experiment), figures_folder.path());
+  const fs::path figures_folder = experiment_folder / "figures";
+  const DrawnBefore before(experiment, figures_folder);
+  StagedFolder staged(figures_folder, kFiguresMark);
+  WriteWholeFile(staged.path() / kFiguresMark, "Drawn by vitruvia; written by each report.\n");
+  const std::vector<DrawnFigure> figures = DrawFigures(MakeFigures(experiment), staged.path());
   const DrawingWriter sheet_writer({.png_scale = kSheetPngScale});
   const std::vector<RunPictures> pictures =
-      WritePictureSheets(experiment, [&](const RunPictures& run) {
-        WritePictureSheet(sheet_writer, figures_folder.path() / ("pictures-" + run.run_id), run,
-                          {});
+      WritePictureSheets(experiment, before, [&](const RunPictures& run) {
+        WritePictureSheet(sheet_writer, SheetStem(staged.path(), run.run_id), run, {});
       });
-  const std::vector<RunCauses> causes = FindCauses(experiment);
-  figures_folder.Commit();
+  TakeOverSheets(pictures, figures_folder, staged.path());
+  const std::vector<RunCauses> causes = FindCauses(experiment, before);
+  before.Keep(pictures, causes, staged.path());
+  staged.Commit();
 
   WriteWholeFile(experiment_folder / "table.csv", ToCsv(experiment));
   WriteWholeFile(experiment_folder / "table.tex", ToLatex(experiment));

@@ -16,6 +16,7 @@
 #include "reports/figures/tree_drawing.h"
 #include "reports/pages/page_parts.h"
 #include "reports/pages/picture_section.h"
+#include "reports/pictures/drawn_before.h"
 #include "reports/pictures/pictures.h"
 #include "reports/pictures/side_by_side.h"
 
@@ -126,7 +127,7 @@ std::vector<RunPictures> PicturesOf(const ReportedExperiment& experiment,
   if (!shown.frames.empty()) chosen.record.picture_frames = shown.frames;
   chosen.record.side_by_side = shown.side_by_side;
   std::vector<RunPictures> pictures =
-      shown.side_by_side ? MakeSideBySide(chosen) : MakePictures(chosen);
+      shown.side_by_side ? MakeSideBySide(chosen, {}) : MakePictures(chosen, {});
   for (RunPictures& run : pictures) KeepPanels(shown.panels, run);
   return pictures;
 }

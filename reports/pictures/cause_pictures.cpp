@@ -9,6 +9,7 @@
 #include "core/worker_team.h"
 #include "records/estimate.h"
 #include "reports/drawing/color_maps.h"
+#include "reports/pictures/drawn_before.h"
 #include "reports/pictures/mesh_view.h"
 #include "reports/pictures/picture_window.h"
 
@@ -61,11 +62,15 @@ void Explain(const SequenceReader& sequence, const std::vector<FrameEvidence>& e
 
 }  // namespace
 
-std::vector<RunCauses> FindCauses(const ReportedExperiment& experiment) {
+std::vector<RunCauses> FindCauses(const ReportedExperiment& experiment, const DrawnBefore& before) {
   std::vector<RunCauses> all;
   std::map<std::filesystem::path, std::vector<std::size_t>> runs_of_sequence;
   for (const RunRecord* run : experiment.finished()) {
     if (run->frames.empty()) continue;
+    if (const RunCauses* found = before.Causes(run->run_id)) {
+      all.push_back(*found);
+      continue;
+    }
     runs_of_sequence[run->sequence_folder].push_back(all.size());
     all.emplace_back().run_id = run->run_id;
   }

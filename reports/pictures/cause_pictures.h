@@ -20,8 +20,10 @@ struct RunCauses {
                                   // sees them
 };
 
+class DrawnBefore;
+
 // One entry per finished tracking run. A sequence's evidence is gathered once for all its runs;
-// sequences are processed on all cores.
-std::vector<RunCauses> FindCauses(const ReportedExperiment& experiment);
+// sequences are processed on all cores. Causes found by an earlier report are reused.
+std::vector<RunCauses> FindCauses(const ReportedExperiment& experiment, const DrawnBefore& before);
 
 }  // namespace vitruvia

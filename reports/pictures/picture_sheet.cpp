@@ -251,6 +251,10 @@ class Sheet {
 
 }  // namespace
 
+std::filesystem::path SheetStem(const std::filesystem::path& folder, const std::string& run_id) {
+  return folder / ("pictures-" + run_id);
+}
+
 void WritePictureSheet(const DrawingWriter& writer, const std::filesystem::path& stem,
                        const RunPictures& run, const SheetStyle& style) {
   const Sheet sheet(run, style);

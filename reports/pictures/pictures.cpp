@@ -19,6 +19,7 @@
 #include "records/surface_strips.h"
 #include "reports/drawing/axis.h"
 #include "reports/drawing/color_maps.h"
+#include "reports/pictures/drawn_before.h"
 #include "reports/pictures/mesh_view.h"
 #include "reports/pictures/picture_source.h"
 #include "reports/pictures/picture_window.h"
@@ -44,12 +45,16 @@ std::vector<double> ErrorsInView(const PictureSource& source) {
   return errors_m;
 }
 
+// 0 without a true surface.
+double OwnErrorScale(const PictureSource& source) {
+  return source.has_truth() ? ErrorScaleEnd(ErrorsInView(source), kSmallestErrorScale_m) : 0.0;
+}
+
 // The median of the runs' scales, so that a diverged run does not make the others pale.
-double ErrorScale(const std::vector<std::unique_ptr<PictureSource>>& sources) {
+double CommonErrorScale(const std::vector<RunPictures>& runs) {
   std::vector<double> ends_m;
-  for (const auto& source : sources) {
-    if (source != nullptr && source->has_truth())
-      ends_m.push_back(ErrorScaleEnd(ErrorsInView(*source), kSmallestErrorScale_m));
+  for (const RunPictures& run : runs) {
+    if (run.own_error_scale_m > 0.0) ends_m.push_back(run.own_error_scale_m);
   }
   if (ends_m.empty()) return kSmallestErrorScale_m;
   return RoundedUp(Quantile(ends_m, 0.5));
@@ -246,7 +251,8 @@ std::vector<std::string> PictureTitlesWithoutTruth() {
   return {PictureTitles().begin(), PictureTitles().begin() + 3};
 }
 
-std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment, const PictureUse& use) {
+std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment,
+                                      const DrawnBefore& before, const PictureUse& use) {
   const std::vector<const RunRecord*> runs = experiment.finished();
   std::vector<RunPictures> all(runs.size());
   std::vector<std::unique_ptr<PictureSource>> sources(runs.size());
@@ -256,16 +262,34 @@ std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment, cons
       for (int r = begin; r < end; ++r) work(static_cast<std::size_t>(r));
     });
   };
-  for_each_run([&](std::size_t r) { sources[r] = OpenSource(experiment, *runs[r], all[r]); });
-  const double error_scale_m = ErrorScale(sources);
+  const auto open = [&](std::size_t r) {
+    all[r] = {};
+    sources[r] = OpenSource(experiment, *runs[r], all[r]);
+    if (sources[r] != nullptr) all[r].own_error_scale_m = OwnErrorScale(*sources[r]);
+  };
+  std::vector<bool> to_draw(runs.size());
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const RunPictures* drawn = before.Pictures(runs[r]->run_id);
+    to_draw[r] = drawn == nullptr;
+    if (drawn != nullptr) all[r] = *drawn;
+  }
+  for_each_run([&](std::size_t r) {
+    if (to_draw[r]) open(r);
+  });
+  const double error_scale_m = CommonErrorScale(all);
   Progress progress("pictures", static_cast<int>(runs.size()));
   std::mutex progress_mutex;
   for_each_run([&](std::size_t r) {
     ThrowIfInterrupted();
-    if (all[r].problem.empty())
-      DrawRun(experiment.folder / all[r].run_id, sources[r].get(), error_scale_m, all[r]);
-    sources[r].reset();
-    if (use) use(all[r]);
+    const bool has_other_colors =
+        !to_draw[r] && all[r].own_error_scale_m > 0.0 && all[r].error_scale_m != error_scale_m;
+    if (has_other_colors) open(r);
+    if (to_draw[r] || has_other_colors) {
+      if (all[r].problem.empty())
+        DrawRun(experiment.folder / all[r].run_id, sources[r].get(), error_scale_m, all[r]);
+      sources[r].reset();
+      if (use) use(all[r]);
+    }
     const std::lock_guard lock(progress_mutex);
     progress.Advance();
   });

@@ -36,6 +36,7 @@ struct RunPictures {
   std::vector<std::string> titles;           // of a strip's pictures
   double nearest_m = 0.0, farthest_m = 0.0;  // ends of the depth colours; both 0: no depth shown
   double error_scale_m = 0.0;                // end of the error colours; 0: no errors shown
+  double own_error_scale_m = 0.0;            // where they would end if there were no other run
   std::vector<ColorKey> keys;                // what plain colours mean
   std::vector<PictureStrip> strips;
 };
@@ -44,6 +45,8 @@ struct RunPictures {
 const std::vector<std::string>& PictureTitles();
 std::vector<std::string> PictureTitlesWithoutTruth();
 
+class DrawnBefore;
+
 // Callback for a run's pictures as soon as they are drawn, on the thread that drew them.
 using PictureUse = std::function<void(RunPictures&)>;
 
@@ -51,9 +54,12 @@ using PictureUse = std::function<void(RunPictures&)>;
 // that left surfaces instead of frames (records/surface_strips.h), those. The error of a vertex is
 // its distance to the corresponding true point, which is the closest one in the common rest pose.
 // All runs share one error scale, so that their colours are comparable. Runs are drawn on all
-// cores.
+// cores; pictures that an earlier report drew of the same data are reused.
 std::vector<RunPictures> MakePictures(const ReportedExperiment& experiment,
-                                      const PictureUse& use = {});
+                                      const DrawnBefore& before, const PictureUse& use = {});
+
+// Of a run's sheet in a folder of figures: without the ending.
+std::filesystem::path SheetStem(const std::filesystem::path& folder, const std::string& run_id);
 
 struct SheetStyle {
   double text_size = 12.0;      // page units

@@ -13,6 +13,7 @@
 #include "records/estimate.h"
 #include "records/metric_value.h"
 #include "reports/drawing/color_maps.h"
+#include "reports/pictures/drawn_before.h"
 #include "reports/pictures/picture_source.h"
 #include "reports/pictures/picture_window.h"
 #include "sequence/sequence.h"
@@ -157,12 +158,16 @@ class RowPainter {
   DepthRange range_;
 };
 
+// Variants can change a scene: only the folder's name tells its sequences apart.
+std::string IdOf(const RunsOfSequence& runs) {
+  return "side-by-side-" + runs.front().run->sequence_folder.filename().string();
+}
+
 RunPictures Painted(const ReportedExperiment& experiment, const RunsOfSequence& runs,
                     MeshView& view) {
   const RunRecord& first = *runs.front().run;
   RunPictures pictures;
-  // Variants can change a scene: only the folder's name tells its sequences apart.
-  pictures.run_id = "side-by-side-" + first.sequence_folder.filename().string();
+  pictures.run_id = IdOf(runs);
   try {
     const SequenceReader sequence((experiment.folder / first.sequence_folder).lexically_normal());
     if (!sequence.info().surface) {
@@ -194,7 +199,7 @@ RunPictures Painted(const ReportedExperiment& experiment, const RunsOfSequence& 
 }  // namespace
 
 std::vector<RunPictures> MakeSideBySide(const ReportedExperiment& experiment,
-                                        const PictureUse& use) {
+                                        const DrawnBefore& before, const PictureUse& use) {
   if (!experiment.record.side_by_side) return {};
   const std::vector<RunsOfSequence> groups = GroupedBySequence(experiment);
   std::vector<RunPictures> all(groups.size());
@@ -202,6 +207,10 @@ std::vector<RunPictures> MakeSideBySide(const ReportedExperiment& experiment,
   team.For(static_cast<int>(groups.size()), 1, [&](int begin, int end) {
     MeshView view(kPictureSize, kPictureSize);
     for (int i = begin; i < end; ++i) {
+      if (const RunPictures* drawn = before.Pictures(IdOf(groups[i]))) {
+        all[i] = *drawn;
+        continue;
+      }
       all[i] = Painted(experiment, groups[i], view);
       if (use) use(all[i]);
     }

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <limits>
 #include <stdexcept>
+#include <type_traits>
+#include <utility>
 #include <zlib.h>
 
 #include "core/build_info.h"
@@ -17,12 +19,17 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie");
 
-constexpr float kFinestStep_m = 1e-4f;
 constexpr int kGridEnd = std::numeric_limits<std::uint16_t>::max();
 constexpr int kChunkFrames = 32;  // a second: longer chunks are hardly smaller and open later
 constexpr int kCompression = 4;   // of 1 … 9; 6 takes three times as long for 3 % less
 
-constexpr const char* kCodingNames[] = {"plain", "byte_planes", "frame_changes", "motion"};
+constexpr const char* kCodingNames[] = {"plain", "byte_planes", "surface"};
+
+template <class Number>
+constexpr const char* TypeName() {
+  if constexpr (std::is_floating_point_v<Number>) return "f32";
+  return sizeof(Number) == 1 ? "u8" : sizeof(Number) == 2 ? "u16" : "u32";
+}
 
 template <class Number>
 std::vector<std::uint8_t> AsBytes(std::span<const Number> values) {
@@ -32,9 +39,10 @@ std::vector<std::uint8_t> AsBytes(std::span<const Number> values) {
 }
 
 // Small numbers of either sign become small numbers.
-std::uint16_t ZigZag(std::uint16_t difference) {
-  const auto value = static_cast<std::int16_t>(difference);
-  return static_cast<std::uint16_t>((value << 1) ^ (value >> 15));
+template <class Number>
+Number ZigZag(Number difference) {
+  const auto value = static_cast<std::make_signed_t<Number>>(difference);
+  return static_cast<Number>((value << 1) ^ (value >> (8 * sizeof(Number) - 1)));
 }
 
 std::vector<std::uint8_t> InBytePlanes(std::span<const std::uint16_t> values, int frames) {
@@ -52,58 +60,59 @@ std::vector<std::uint8_t> InBytePlanes(std::span<const std::uint16_t> values, in
   return bytes;
 }
 
-// See Coding::kMotion; all sums wrap round at 16 bits.
-std::vector<std::uint16_t> MotionCoded(std::span<const std::uint16_t> values, int frames) {
+// The nearest whole number, halves upwards.
+int RoundedQuotient(int sum, int count) {
+  return static_cast<int>(std::floor((sum + 0.5 * count) / count));
+}
+
+// See Coding::kSurface; differences wrap round.
+template <class Number>
+std::vector<Number> SurfaceCoded(std::span<const Number> values, int frames,
+                                 const EarlierNeighbours& neighbours) {
+  const std::size_t vertices = neighbours.vertices();
   const std::size_t length = values.size() / static_cast<std::size_t>(std::max(frames, 1));
-  const std::size_t vertices = length / 3;
-  std::vector<std::uint16_t> coded(values.size());
+  const std::size_t parts = length / vertices;  // of a vertex
+  std::vector<Number> coded(values.size());
+  std::vector<int> change(length);
   for (std::size_t frame = 0; frame < static_cast<std::size_t>(frames); ++frame) {
-    const auto at = [&](std::size_t back, std::size_t i) {
-      return frame < back ? 0 : values[(frame - back) * length + i];
-    };
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      std::uint16_t before = 0;
-      for (std::size_t v = 0; v < vertices; ++v) {
-        const std::size_t i = 3 * v + axis;
-        const auto change = static_cast<std::uint16_t>(at(0, i) - 2 * at(1, i) + at(2, i));
-        coded[frame * length + axis * vertices + v] =
-            ZigZag(static_cast<std::uint16_t>(change - before));
-        before = change;
+    const std::size_t first = frame * length;
+    for (std::size_t i = 0; i < length; ++i)
+      change[i] = values[first + i] - (frame > 0 ? values[first + i - length] : 0);
+    for (std::size_t v = 0; v < vertices; ++v) {
+      const std::span<const std::uint32_t> earlier = neighbours.Of(v);
+      for (std::size_t part = 0; part < parts; ++part) {
+        int expected = 0;
+        for (const std::uint32_t n : earlier) expected += change[n * parts + part];
+        if (earlier.size() > 1)
+          expected = RoundedQuotient(expected, static_cast<int>(earlier.size()));
+        coded[first + part * vertices + v] =
+            ZigZag(static_cast<Number>(change[v * parts + part] - expected));
       }
     }
   }
   return coded;
 }
 
-std::vector<std::uint8_t> FrameChanges(std::span<const std::uint8_t> values, int frames) {
-  const std::size_t length = values.size() / static_cast<std::size_t>(std::max(frames, 1));
-  std::vector<std::uint8_t> changes(values.begin(), values.end());
-  for (std::size_t i = length; i < values.size(); ++i)
-    changes[i] = static_cast<std::uint8_t>(values[i] - values[i - length]);
-  return changes;
-}
+// What is left of a surface repeats itself only in runs: looking for these alone is faster, and
+// smaller than the usual search.
+int StrategyFor(Coding coding) { return coding == Coding::kSurface ? Z_RLE : Z_DEFAULT_STRATEGY; }
 
-std::vector<std::uint8_t> Coded(std::span<const std::uint8_t> values, int frames, Coding coding) {
-  return coding == Coding::kFrameChanges ? FrameChanges(values, frames) : AsBytes(values);
-}
-std::vector<std::uint8_t> Coded(std::span<const std::uint16_t> values, int frames, Coding coding) {
-  if (coding == Coding::kPlain) return AsBytes(values);
-  if (coding == Coding::kBytePlanes) return InBytePlanes(values, frames);
-  return InBytePlanes(MotionCoded(values, frames), frames);
-}
-template <class Number>  // of 32 bits
-std::vector<std::uint8_t> Coded(std::span<const Number> values, int /*frames*/, Coding /*plain*/) {
-  return AsBytes(values);
-}
-
-std::vector<std::uint8_t> Compressed(const std::vector<std::uint8_t>& bytes) {
-  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-  std::vector<std::uint8_t> compressed(size);
-  if (compress2(compressed.data(), &size, bytes.data(), static_cast<uLong>(bytes.size()),
-                kCompression) != Z_OK) {
+std::vector<std::uint8_t> Compressed(std::vector<std::uint8_t> bytes, Coding coding) {
+  constexpr int kWindowBits = 15, kMemory = 9;  // the largest
+  z_stream stream{};
+  if (deflateInit2(&stream, kCompression, Z_DEFLATED, kWindowBits, kMemory, StrategyFor(coding)) !=
+      Z_OK) {
     throw std::runtime_error("zlib cannot compress an array");
   }
-  compressed.resize(size);
+  std::vector<std::uint8_t> compressed(deflateBound(&stream, bytes.size()));
+  stream.next_in = bytes.data();
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = compressed.data();
+  stream.avail_out = static_cast<uInt>(compressed.size());
+  const int state = deflate(&stream, Z_FINISH);
+  compressed.resize(stream.total_out);
+  deflateEnd(&stream);
+  if (state != Z_STREAM_END) throw std::runtime_error("zlib cannot compress an array");
   return compressed;
 }
 
@@ -130,12 +139,32 @@ std::vector<std::uint16_t> PositionGrid::Quantised(const std::vector<Vector3f>& 
   return values;
 }
 
-template <class Number>
-nlohmann::json PackedArrays::Add(const std::vector<Number>& values, const char* type, Coding coding,
-                                 int frames, int chunk_frames) {
+EarlierNeighbours::EarlierNeighbours(const std::vector<Triangle>& triangles, std::size_t vertices) {
+  std::vector<std::pair<std::int32_t, std::int32_t>> edges;  // later, earlier
+  for (const Triangle& t : triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t from = t[k], to = t[(k + 1) % 3];
+      if (to < from) edges.emplace_back(from, to);
+    }
+  }
+  std::ranges::sort(edges);
+  begins_.push_back(0);
+  auto edge = edges.begin();
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const std::size_t before = indices_.size();
+    for (; edge != edges.end() && static_cast<std::size_t>(edge->first) == v; ++edge)
+      indices_.push_back(static_cast<std::uint32_t>(edge->second));
+    if (v > 0 && indices_.size() == before) indices_.push_back(static_cast<std::uint32_t>(v - 1));
+    begins_.push_back(static_cast<std::uint32_t>(indices_.size()));
+  }
+}
+
+template <class Number, class Code>
+nlohmann::json PackedArrays::Add(const std::vector<Number>& values, int frames, int chunk_frames,
+                                 Coding coding, const Code& coded) {
   const std::size_t length = frames == 0 ? 0 : values.size() / static_cast<std::size_t>(frames);
-  const nlohmann::json about = {{"id", arrays_.size()},
-                                {"type", type},
+  const nlohmann::json about = {{"id", elements_.size()},
+                                {"type", TypeName<Number>()},
                                 {"coding", kCodingNames[static_cast<int>(coding)]},
                                 {"frames", frames},
                                 {"chunk_frames", chunk_frames},
@@ -144,36 +173,72 @@ nlohmann::json PackedArrays::Add(const std::vector<Number>& values, const char* 
     const int count = std::min(chunk_frames, frames - begin);
     const std::span<const Number> chunk = std::span(values).subspan(
         static_cast<std::size_t>(begin) * length, static_cast<std::size_t>(count) * length);
-    arrays_.push_back(Coded(chunk, count, coding));
+    elements_.push_back({coded(chunk, count), coding});
   }
   return about;
 }
 
-nlohmann::json PackedArrays::Bytes(const std::vector<std::uint8_t>& values, int frames,
-                                   Coding coding) {
-  return Add(values, "u8", coding, frames, kChunkFrames);
+nlohmann::json PackedArrays::Bytes(const std::vector<std::uint8_t>& values) {
+  return Add(values, 1, 1, Coding::kPlain,
+             [](std::span<const std::uint8_t> chunk, int) { return AsBytes(chunk); });
 }
 
-nlohmann::json PackedArrays::Words(const std::vector<std::uint16_t>& values, int frames,
-                                   Coding coding) {
-  return Add(values, "u16", coding, frames, kChunkFrames);
-}
-
-nlohmann::json PackedArrays::Indices(const std::vector<std::uint32_t>& values) {
-  return Add(values, "u32", Coding::kPlain, 1, 1);
+nlohmann::json PackedArrays::Words(const std::vector<std::uint16_t>& values, int frames) {
+  return Add(
+      values, frames, kChunkFrames, Coding::kBytePlanes,
+      [](std::span<const std::uint16_t> chunk, int count) { return InBytePlanes(chunk, count); });
 }
 
 nlohmann::json PackedArrays::Floats(const std::vector<float>& values, int frames) {
-  return Add(values, "f32", Coding::kPlain, frames, std::max(frames, 1));
+  return Add(values, frames, std::max(frames, 1), Coding::kPlain,
+             [](std::span<const float> chunk, int) { return AsBytes(chunk); });
+}
+
+PackedSurface PackedArrays::Surface(const std::vector<Triangle>& triangles, std::size_t vertices) {
+  std::vector<std::uint32_t> indices;
+  indices.reserve(3 * triangles.size());
+  for (const Triangle& t : triangles) {
+    for (const std::int32_t corner : t) indices.push_back(static_cast<std::uint32_t>(corner));
+  }
+  return {Add(indices, 1, 1, Coding::kPlain,
+              [](std::span<const std::uint32_t> chunk, int) { return AsBytes(chunk); }),
+          EarlierNeighbours(triangles, vertices)};
+}
+
+template <class Number>
+nlohmann::json PackedArrays::AddOn(const PackedSurface& surface, const std::vector<Number>& values,
+                                   int frames) {
+  nlohmann::json about = Add(values, frames, kChunkFrames, Coding::kSurface,
+                             [&](std::span<const Number> chunk, int count) {
+                               const std::vector<Number> coded =
+                                   SurfaceCoded(chunk, count, surface.neighbours);
+                               if constexpr (sizeof(Number) == 2) return InBytePlanes(coded, count);
+                               return AsBytes(std::span<const Number>(coded));
+                             });
+  about["surface"] = surface.triangles.at("id");
+  about["vertices"] = surface.neighbours.vertices();
+  return about;
+}
+
+nlohmann::json PackedArrays::On(const PackedSurface& surface,
+                                const std::vector<std::uint8_t>& values, int frames) {
+  return AddOn(surface, values, frames);
+}
+
+nlohmann::json PackedArrays::On(const PackedSurface& surface,
+                                const std::vector<std::uint16_t>& values, int frames) {
+  return AddOn(surface, values, frames);
 }
 
 std::string PackedArrays::Html() const {
-  std::vector<std::string> elements(arrays_.size());
+  std::vector<std::string> elements(elements_.size());
   WorkerTeam team(GetMachineInfo().threads);
-  team.For(static_cast<int>(arrays_.size()), 1, [&](int begin, int end) {
+  team.For(static_cast<int>(elements_.size()), 1, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      elements[i] = "<script type=\"text/plain\" id=\"array-" + std::to_string(i) + "\">" +
-                    InBase64(Compressed(arrays_[i])) + "</script>\n";
+      const auto& [bytes, coding] = elements_[static_cast<std::size_t>(i)];
+      elements[static_cast<std::size_t>(i)] = "<script type=\"text/plain\" id=\"array-" +
+                                              std::to_string(i) + "\">" +
+                                              InBase64(Compressed(bytes, coding)) + "</script>\n";
     }
   });
   std::string html;

@@ -27,15 +27,6 @@ constexpr int kMostDepthPixels = 20'000;  // of a frame
 constexpr double kDepthStep_m = 0.001;
 constexpr int kPointsOfOwnSurface = 6000;  // of a true surface whose triangles change
 
-std::vector<std::uint32_t> Flat(const std::vector<Triangle>& triangles) {
-  std::vector<std::uint32_t> indices;
-  indices.reserve(3 * triangles.size());
-  for (const Triangle& t : triangles) {
-    for (const std::int32_t corner : t) indices.push_back(static_cast<std::uint32_t>(corner));
-  }
-  return indices;
-}
-
 template <class Value>
 void Append(const std::vector<Value>& more, std::vector<Value>& all) {
   all.insert(all.end(), more.begin(), more.end());
@@ -82,7 +73,7 @@ Json DepthContent(const OpenedRun& run, const std::vector<int>& frames, PackedAr
           {"step_m", kDepthStep_m},
           {"nearest", nearest},
           {"farthest", farthest},
-          {"values", arrays.Words(depths, static_cast<int>(frames.size()), Coding::kBytePlanes)}};
+          {"values", arrays.Words(depths, static_cast<int>(frames.size()))}};
 }
 
 // Three coordinates of each joint of each frame, NaN where it is not known.
@@ -104,10 +95,11 @@ Json TrueSurface(const OpenedRun& run, const std::vector<int>& frames, const Pag
   std::vector<std::uint16_t> positions;
   for (const int frame : frames)
     Append(page.grid.Quantised(mesh.Of(run.sequence->ReadTrueVertices(frame))), positions);
+  const PackedSurface surface = arrays.Surface(mesh.triangles, mesh.kept.size());
   return {{"vertices", run.sequence->true_rest_mesh().vertices.size()},
           {"shown", mesh.kept.size()},
-          {"triangles", arrays.Indices(Flat(mesh.triangles))},
-          {"positions", arrays.Words(positions, static_cast<int>(frames.size()), Coding::kMotion)}};
+          {"triangles", surface.triangles},
+          {"positions", arrays.On(surface, positions, static_cast<int>(frames.size()))}};
 }
 
 // Of a surface with its own triangles in each frame: so many of its vertices, as points.
@@ -122,9 +114,8 @@ Json OwnTrueSurface(const OpenedRun& run, const std::vector<int>& frames, const 
     some.resize(kPointsOfOwnSurface, page.grid.origin);
     Append(page.grid.Quantised(some), positions);
   }
-  return {
-      {"shown", kPointsOfOwnSurface},
-      {"positions", arrays.Words(positions, static_cast<int>(frames.size()), Coding::kBytePlanes)}};
+  return {{"shown", kPointsOfOwnSurface},
+          {"positions", arrays.Words(positions, static_cast<int>(frames.size()))}};
 }
 
 // The square root of the length as a share of the largest one: fine where lengths are small.
@@ -132,17 +123,19 @@ std::vector<std::uint8_t> LengthBytes(const std::vector<float>& lengths_m, float
   std::vector<std::uint8_t> bytes;
   bytes.reserve(lengths_m.size());
   for (const float length_m : lengths_m) {
-    const float share = most_m > 0.0f ? std::clamp(length_m / most_m, 0.0f, 1.0f) : 0.0f;
+    const float told_m = std::round(length_m / kFinestStep_m) * kFinestStep_m;
+    const float share = most_m > 0.0f ? std::clamp(told_m / most_m, 0.0f, 1.0f) : 0.0f;
     bytes.push_back(static_cast<std::uint8_t>(std::lround(255.0f * std::sqrt(share))));
   }
   return bytes;
 }
 
 // Bytes with the length that 255 stands for.
-Json LengthContent(const std::vector<float>& lengths_m, int frames, PackedArrays& arrays) {
+Json LengthContent(const PackedSurface& surface, const std::vector<float>& lengths_m, int frames,
+                   PackedArrays& arrays) {
   const float most_m = lengths_m.empty() ? 0.0f : std::ranges::max(lengths_m);
   return {{"most_m", most_m},
-          {"values", arrays.Bytes(LengthBytes(lengths_m, most_m), frames, Coding::kFrameChanges)}};
+          {"values", arrays.On(surface, LengthBytes(lengths_m, most_m), frames)}};
 }
 
 // Per frame and vertex.
@@ -178,6 +171,27 @@ std::vector<float> EstimatedJoints(const EstimateReader& estimate) {
   for (const FrameEstimate& frame : estimate.frames()) {
     for (const Vector3d& joint : frame.joints) {
       for (int axis = 0; axis < 3; ++axis) values.push_back(static_cast<float>(joint[axis]));
+    }
+  }
+  return values;
+}
+
+// Of each joint of each frame the lower triangle L of C = L Lᵀ, row by row, metres; NaN where the
+// tracker gave no covariance C. L carries the unit sphere to the ellipsoid of one standard
+// deviation.
+std::vector<float> CovarianceFactors(const EstimateReader& estimate) {
+  std::vector<float> values;
+  for (const FrameEstimate& frame : estimate.frames()) {
+    for (std::size_t joint = 0; joint < frame.joints.size(); ++joint) {
+      Matrix3<double> factor = Matrix3<double>::Constant(NAN);
+      if (frame.has_covariances()) {
+        const Eigen::LLT<Matrix3<double>> cholesky(frame.covariance_m2(joint));
+        if (cholesky.info() == Eigen::Success) factor = cholesky.matrixL();
+      }
+      for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column <= row; ++column)
+          values.push_back(static_cast<float>(factor(row, column)));
+      }
     }
   }
   return values;
@@ -305,6 +319,7 @@ Json RunContent(const OpenedRun& run, int sequence, const PageFrame& page, Packe
   std::vector<float> template_positions;
   for (const Vector3f& vertex : mesh.Of(rest.vertices))
     template_positions.insert(template_positions.end(), {vertex.x(), vertex.y(), vertex.z()});
+  const PackedSurface surface = arrays.Surface(mesh.triangles, mesh.kept.size());
   Json content = {{"id", run.record.run_id},
                   {"method", run.record.method},
                   {"variant", run.record.variant},
@@ -313,8 +328,8 @@ Json RunContent(const OpenedRun& run, int sequence, const PageFrame& page, Packe
                   {"surface",
                    {{"vertices", rest.vertices.size()},
                     {"shown", mesh.kept.size()},
-                    {"triangles", arrays.Indices(Flat(mesh.triangles))},
-                    {"positions", arrays.Words(positions, count, Coding::kMotion)},
+                    {"triangles", surface.triangles},
+                    {"positions", arrays.On(surface, positions, count)},
                     {"template", arrays.Floats(template_positions, 1)}}},
                   {"joints", arrays.Floats(EstimatedJoints(*run.estimate),
                                            static_cast<int>(run.estimate->frames().size()))},
@@ -323,18 +338,22 @@ Json RunContent(const OpenedRun& run, int sequence, const PageFrame& page, Packe
                   {"causes", CauseContent(run.diagnosis)},
                   {"events", EventContent(run.diagnosis)},
                   {"lost", run.diagnosis.lost_frames}};
+  if (std::ranges::any_of(run.estimate->frames(), &FrameEstimate::has_covariances)) {
+    content["uncertainty"] = arrays.Floats(CovarianceFactors(*run.estimate),
+                                           static_cast<int>(run.estimate->frames().size()));
+  }
   if (run.sequence->info().surface) {
-    VertexColors colors = CompareWithTruth(run, frames, mesh);
-    content["surface"]["error"] = LengthContent(colors.errors_m, count, arrays);
-    content["surface"]["visible"] = arrays.Bytes(colors.visible, count, Coding::kFrameChanges);
+    const VertexColors colors = CompareWithTruth(run, frames, mesh);
+    content["surface"]["error"] = LengthContent(surface, colors.errors_m, count, arrays);
+    content["surface"]["visible"] = arrays.On(surface, colors.visible, count);
   }
   if (run.sequence->info().subject) {
     const BonePlacement bones(mesh.Of(rest.vertices), run.sequence->subject());
-    content["surface"]["bone"] = arrays.Bytes(bones.BoneOfVertex(), 1, Coding::kPlain);
+    content["surface"]["bone"] = arrays.Bytes(bones.BoneOfVertex());
     std::vector<float> warps_m;
     for (const int frame : frames)
       Append(bones.Warps(mesh.Of(run.estimate->ReadVertices(frame))), warps_m);
-    content["surface"]["warp"] = LengthContent(warps_m, count, arrays);
+    content["surface"]["warp"] = LengthContent(surface, warps_m, count, arrays);
   }
   return content;
 }

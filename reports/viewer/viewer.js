@@ -3,12 +3,15 @@
 
 const kLayers = [
   ["estimate", "estimate"], ["truth", "truth"], ["depth", "depth points"], ["skeleton", "skeleton"],
-  ["template", "template"], ["frustum", "camera"],
+  ["template", "template"], ["frustum", "camera"], ["regions", "95 % regions of the joints"],
 ];
 const kColors = [
   ["error", "error"], ["visible", "visible or hidden"], ["bone", "bone"],
-  ["warp", "warp: distance from the skinned template"], ["plain", "plain"],
+  ["warp", "warp: distance from the skinned template"],
+  ["uncertainty", "predicted error of the bone’s joint"], ["plain", "plain"],
 ];
+// Colours on the scale of lengths, as the legend names them.
+const kScaled = {error: "error", warp: "warp", uncertainty: "predicted error"};
 const kPrefetch = 32;  // frames that are unpacked ahead while the body moves
 const element = id => document.getElementById(id);
 
@@ -46,9 +49,11 @@ class Viewer {
     const some = has => page.runs.some(has);
     return {
       layers: {estimate: true, depth: true, frustum: true, template: true, skeleton: true,
-               truth: page.sequences.some(sequence => sequence.truth)},
+               truth: page.sequences.some(sequence => sequence.truth),
+               regions: some(run => run.uncertainty)},
       colors: {plain: true, error: some(run => run.surface.error),
                warp: some(run => run.surface.warp),
+               uncertainty: some(run => run.uncertainty && run.surface.bone),
                visible: some(run => run.surface.visible), bone: some(run => run.surface.bone)},
     };
   }
@@ -81,7 +86,8 @@ class Viewer {
       const pane = document.createElement("div"), name = document.createElement("b");
       name.textContent = run.id;
       pane.style.setProperty("--run", `rgb(${page.palette.runs[i % 7]})`);
-      pane.append(name, document.createElement("br"), document.createElement("span"));
+      if (several) pane.append(name, document.createElement("br"));
+      pane.append(document.createElement("span"));
       return pane;
     }));
     this.listEvents();
@@ -328,7 +334,7 @@ class Viewer {
     element("series").value = state.series;
     element("speed").value = state.speed;
     if (document.activeElement !== element("scale")) element("scale").value = shortNumber(state.scale_mm);
-    element("scale-choice").hidden = !kLengths.has(state.color);
+    element("scale-choice").hidden = !kScaled[state.color];
     element("follow").checked = state.follow;
     element("difference").checked = state.difference;
     element("logarithmic").checked = state.logarithmic;
@@ -377,11 +383,11 @@ class Viewer {
       return part;
     };
     const parts = [];
-    if (kLengths.has(this.state.color)) {
+    if (kScaled[this.state.color]) {
       const bar = document.createElement("i"), ends = document.createElement("div");
       bar.style.background = `linear-gradient(to right, ${palette.error.map(c => `rgb(${c})`)})`;
       ends.className = "ends";
-      for (const text of ["0", this.state.color, `≥ ${shortNumber(this.state.scale_mm)} mm`]) {
+      for (const text of ["0", kScaled[this.state.color], `≥ ${shortNumber(this.state.scale_mm)} mm`]) {
         const end = document.createElement("span");
         end.textContent = text;
         ends.append(end);

@@ -18,54 +18,84 @@ function fromBytePlanes(bytes, frames, length) {
   return values;
 }
 
-// Takes back what MotionCoded in packing.cpp did; a Uint16Array wraps round at 16 bits.
-function fromMotion(bytes, frames, length) {
-  const values = new Uint16Array(frames * length);
-  const vertices = length / 3;
+// See EarlierNeighbours in packing.h: those of vertex v are indices[begins[v]] … indices[begins[v + 1] - 1].
+function earlierNeighbours(triangles, vertices) {
+  const begins = new Uint32Array(vertices + 1), edges = [];
+  for (let t = 0; t < triangles.length; t += 3) {
+    for (let k = 0; k < 3; ++k) {
+      const from = triangles[t + k], to = triangles[t + (k + 1) % 3];
+      if (to < from) edges.push(from, to);
+    }
+  }
+  for (let e = 0; e < edges.length; e += 2) ++begins[edges[e] + 1];
+  for (let v = 1; v < vertices; ++v) if (begins[v + 1] === 0) edges.push(v, v - 1), begins[v + 1] = 1;
+  for (let v = 0; v < vertices; ++v) begins[v + 1] += begins[v];
+  const next = begins.slice(), indices = new Uint32Array(edges.length / 2);
+  for (let e = 0; e < edges.length; e += 2) indices[next[edges[e]]++] = edges[e + 1];
+  return {begins, indices, vertices};
+}
+
+// Takes back what SurfaceCoded in packing.cpp did; arrays of 8 and 16 bits wrap round.
+function fromSurface(codes, frames, length, {begins, indices, vertices}) {
+  const values = new codes.constructor(frames * length), parts = length / vertices;
+  const change = new Int32Array(length);
   for (let frame = 0; frame < frames; ++frame) {
-    const to = frame * length, one = to - length, two = one - length;
-    for (let axis = 0; axis < 3; ++axis) {
-      let change = 0, low = 2 * to + axis * vertices, high = low + length;
-      for (let i = axis; i < length; i += 3, ++low, ++high) {
-        const code = bytes[low] | bytes[high] << 8;
-        change += code >> 1 ^ -(code & 1);
-        values[to + i] =
-            change + (frame > 0 ? 2 * values[one + i] : 0) - (frame > 1 ? values[two + i] : 0);
+    const to = frame * length;
+    for (let part = 0; part < parts; ++part) {
+      for (let v = 0, i = part; v < vertices; ++v, i += parts) {
+        const code = codes[to + part * vertices + v], begin = begins[v], end = begins[v + 1];
+        let expected = 0;
+        for (let n = begin; n < end; ++n) expected += change[indices[n] * parts + part];
+        if (end - begin > 1) expected = Math.floor((expected + 0.5 * (end - begin)) / (end - begin));
+        const before = frame > 0 ? values[to + i - length] : 0;
+        values[to + i] = before + expected + (code >> 1 ^ -(code & 1));
+        change[i] = values[to + i] - before;
       }
     }
   }
   return values;
 }
 
-function fromFrameChanges(bytes, length) {
-  for (let i = length; i < bytes.length; ++i) bytes[i] += bytes[i - length];
-  return bytes;
-}
-
-// A chunk of so many frames.
-function decoded(buffer, about, frames) {
+// A chunk of so many frames. `neighbours`: of arrays on a surface.
+function decoded(buffer, about, frames, neighbours) {
   const bytes = new Uint8Array(buffer);
-  switch (about.coding) {
-    case "byte_planes": return fromBytePlanes(bytes, frames, about.length);
-    case "motion": return fromMotion(bytes, frames, about.length);
-    case "frame_changes": return fromFrameChanges(bytes, about.length);
+  if (about.coding === "byte_planes") return fromBytePlanes(bytes, frames, about.length);
+  if (about.coding === "surface") {
+    const codes = about.type === "u16" ? fromBytePlanes(bytes, frames, about.length) : bytes;
+    return fromSurface(codes, frames, about.length, neighbours);
   }
   switch (about.type) {
     case "u32": return new Uint32Array(buffer);
     case "f32": return new Float32Array(buffer);
-    case "u16": return new Uint16Array(buffer);
   }
   return bytes;
 }
 
-// Frames of numbers, unpacked a chunk at a time when they are wanted. `texts(id)` is an element's
-// text.
+// The arrays of one page. `textOf(id)` is an element's text.
+class Arrays {
+  constructor(textOf) {
+    this.textOf = textOf;
+    this.neighbours = new Map();  // the triangles' id → promise
+  }
+  buffer(id) {
+    return inflated(this.textOf(id));
+  }
+  neighboursOf(id, vertices) {
+    if (!this.neighbours.has(id)) {
+      this.neighbours.set(id, this.buffer(id).then(
+          triangles => earlierNeighbours(new Uint32Array(triangles), vertices)));
+    }
+    return this.neighbours.get(id);
+  }
+}
+
+// Frames of numbers, unpacked a chunk at a time when they are wanted.
 class FrameArray {
   static mostChunks = 8;  // unpacked at a time
 
-  constructor(about, texts) {
+  constructor(about, arrays) {
     this.about = about;
-    this.texts = texts;
+    this.arrays = arrays;
     this.frames = about.frames;
     this.length = about.length;
     this.chunks = new Map();  // number → its values; the one used last stands last
@@ -94,7 +124,8 @@ class FrameArray {
   async unpack(chunk) {
     const {about} = this;
     const frames = Math.min(about.chunk_frames, about.frames - chunk * about.chunk_frames);
-    this.keep(chunk, decoded(await inflated(this.texts(about.id + chunk)), about, frames));
+    const neighbours = "surface" in about && await this.arrays.neighboursOf(about.surface, about.vertices);
+    this.keep(chunk, decoded(await this.arrays.buffer(about.id + chunk), about, frames, neighbours));
     this.coming.delete(chunk);
   }
   keep(chunk, values) {
@@ -112,19 +143,26 @@ class FrameArray {
 
 // The same JSON with a FrameArray in place of each reference to an array. Arrays of one chunk are
 // unpacked.
-async function unpacked(value, texts) {
+async function unpacked(value, arrays) {
   if (value === null || typeof value !== "object") return value;
   if ("coding" in value) {
-    const array = new FrameArray(value, texts);
+    const array = new FrameArray(value, arrays);
     if (array.isOneChunk) await array.load(0);
     return array;
   }
-  const parts = await Promise.all(Object.values(value).map(part => unpacked(part, texts)));
+  const parts = await Promise.all(Object.values(value).map(part => unpacked(part, arrays)));
   if (Array.isArray(value)) return parts;
   return Object.fromEntries(Object.keys(value).map((key, i) => [key, parts[i]]));
 }
 
-// Numbers per frame of all runs, by name: those of the record and the error of each joint.
+// How far a joint is expected to be off, metres: the root of the trace of its covariance, from the
+// six numbers of the covariance's factor.
+function expectedError_m(factor) {
+  return Math.hypot(...factor);
+}
+
+// Numbers per frame of all runs, by name: those of the record, and of each joint the error and the
+// error that the tracker expects.
 // values[run][frame] is NaN where there is none.
 function seriesOf(page) {
   const all = new Map();
@@ -136,6 +174,15 @@ function seriesOf(page) {
   };
   page.runs.forEach((run, r) => {
     for (const series of run.series) add(r, series, series.values.values);
+    if (run.uncertainty) {
+      page.bones.forEach(({joint}, bone) => {
+        const values = Float32Array.from({length: run.frames}, (_, frame) =>
+            1e3 * expectedError_m(run.uncertainty.at(frame).subarray(6 * bone, 6 * bone + 6)));
+        add(r, {key: "uncertainty:" + joint, label: "predicted error: " + joint.replaceAll("_", " "),
+                unit: "mm", definition: "Root of the trace of the covariance that the tracker gives the joint."},
+            values);
+      });
+    }
     const truth = page.sequences[run.sequence].joints;
     if (!truth) return;
     truth.names.forEach((name, at) => {
@@ -220,7 +267,7 @@ async function loadPage(others) {
   const parcels = await Promise.all([own, ...others.map(parcelFrom)]);
   const contents = await Promise.all(parcels.map(({content, arrays}) => unpacked(
       JSON.parse(content),
-      arrays ? id => arrays[id] : id => document.getElementById("array-" + id).textContent)));
+      new Arrays(id => arrays ? arrays[id] : document.getElementById("array-" + id).textContent))));
   const page = merged(contents);
   page.series = seriesOf(page);
   return page;

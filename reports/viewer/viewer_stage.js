@@ -4,6 +4,7 @@
 // y is up.
 
 const kLengths = new Set(["error", "warp"]);  // colours that stand for a length of each vertex
+const kRegion95 = Math.sqrt(7.815);  // standard deviations: 95 % of a normal distribution in space
 const kTruthBesideRuns = [150, 150, 150];  // the colours of runs stand for runs
 const kHalfAngleTangent = Math.tan(20 * Math.PI / 180);  // of the view, in the pane's shorter direction
 const kUnknownColor = [150, 150, 150];
@@ -166,6 +167,34 @@ class MovingSkeleton {
   }
 }
 
+// Of each joint the ellipsoid that should hold it in 95 % of cases; seen through the body.
+class JointRegions {
+  constructor(run, color) {
+    this.run = run;
+    this.object = new THREE.Group();
+    const sphere = new THREE.SphereBufferGeometry(1, 16, 12);
+    const material = new THREE.MeshBasicMaterial(
+        {color: colorOf(color), depthTest: false, transparent: true, opacity: 0.6});
+    for (let joint = 0; joint < run.uncertainty.length / 6; ++joint) {
+      const region = new THREE.Mesh(sphere, material);
+      region.matrixAutoUpdate = region.frustumCulled = false;
+      region.renderOrder = 3;
+      this.object.add(region);
+    }
+  }
+
+  show(frame) {
+    const joints = this.run.joints.at(frame), factors = this.run.uncertainty.at(frame);
+    this.object.children.forEach((region, joint) => {
+      const [a, b, c, d, e, f] = factors.subarray(6 * joint, 6 * joint + 6).map(x => kRegion95 * x);
+      const [x, y, z] = joints.subarray(3 * joint, 3 * joint + 3);
+      region.visible = Number.isFinite(a);
+      region.matrix.set(a, 0, 0, x, b, c, 0, y, d, e, f, z, 0, 0, 0, 1);
+      region.matrixWorldNeedsUpdate = true;
+    });
+  }
+}
+
 function frustumOf(camera) {
   const depth = 0.6;  // metres to which it is drawn
   const corner = (u, v) => new THREE.Vector3((u - camera.cx) / camera.fx * depth,
@@ -233,6 +262,10 @@ class RunScene {
                                             sequence.truth.triangles ? 0.45 : 1);
     for (const name in this.moving) this.layers[name] = this.moving[name].object;
     this.addSkeletons(links, ownColor, trueColor);
+    if (run.uncertainty) {
+      this.regions = new JointRegions(run, ownColor);
+      this.layers.regions = this.regions.object;
+    }
     this.layers.frustum = frustumOf(sequence.camera);
     this.layers.template = new THREE.Group();  // filled when it is first shown
     for (const name in this.layers) this.root.add(this.layers[name]);
@@ -288,6 +321,8 @@ class RunScene {
     if (layers.has("skeleton")) {
       for (const skeleton of this.skeletons) skeleton.show(Math.min(frame, this.run.frames - 1));
     }
+    if (layers.has("regions") && this.regions)
+      this.regions.show(Math.min(frame, this.run.frames - 1));
     const paint = [this.moving.estimate.shown, colorBy, errorScale_m].join();
     if (layers.has("estimate") && this.painted !== paint) {
       this.moving.estimate.paint(this.painter(this.moving.estimate.shown, colorBy, errorScale_m));
@@ -298,15 +333,21 @@ class RunScene {
 
   // Null: the surface's own colour.
   painter(stored, colorBy, errorScale_m) {
-    const surface = this.run.surface, palette = this.page.palette;
+    const {surface, uncertainty, stored_frames} = this.run, palette = this.page.palette;
+    const colorOfLength = length_m => {
+      const share = Math.min(1, length_m / errorScale_m), ramp = palette.error;
+      return Number.isNaN(share) ? kUnknownColor : ramp[Math.round(share * (ramp.length - 1))];
+    };
     if (kLengths.has(colorBy) && surface[colorBy]) {
-      const bytes = surface[colorBy].values.at(stored);
-      const scale = surface[colorBy].most_m / errorScale_m, ramp = palette.error;
-      const colors = Array.from({length: 256}, (_, b) => {
-        const share = Math.min(1, (b / 255) ** 2 * scale);
-        return ramp[Math.round(share * (ramp.length - 1))];
-      });
+      const bytes = surface[colorBy].values.at(stored), {most_m} = surface[colorBy];
+      const colors = Array.from({length: 256}, (_, b) => colorOfLength((b / 255) ** 2 * most_m));
       return v => colors[bytes[v]];
+    }
+    if (colorBy === "uncertainty" && uncertainty && surface.bone) {
+      const factors = uncertainty.at(stored_frames[stored]);
+      const colors = this.page.bones.map((_, bone) =>
+          colorOfLength(expectedError_m(factors.subarray(6 * bone, 6 * bone + 6))));
+      return v => colors[surface.bone.values[v]] || kUnknownColor;
     }
     if (colorBy === "visible" && surface.visible) {
       const visible = surface.visible.at(stored);

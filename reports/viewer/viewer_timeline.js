@@ -47,7 +47,7 @@ class Timeline {
     pen.scale(ratio, ratio);
     pen.font = "12px system-ui, sans-serif";
     const plot = {left: this.left, top: 8, width: width - this.left - this.right,
-                  height: height - 28};
+                  height: height - 34};
     const last = Math.max(1, this.page.frames - 1);
     const x = f => plot.left + f / last * plot.width;
     this.drawEvents(pen, plot, x);

@@ -5,6 +5,7 @@
 #include "core/files.h"
 #include "geometry/zbuffer.h"
 #include "reports/drawing/color_maps.h"
+#include "reports/pictures/drawn_before.h"
 #include "reports/pictures/mesh_view.h"
 #include "reports/synthetic_experiment.h"
 #include "support/temporary_folder.h"
@@ -30,7 +31,7 @@ bool IsNoRedderThan(const ColorPixel& pixel, const Color& color) {
 TEST(Pictures, ErrorMapOfTheTruthIsPaleAllOver) {
   const TemporaryFolder root;
   const ReportedExperiment experiment = ReadExperiment(WriteSyntheticExperiment(root.path()));
-  const std::vector<RunPictures> runs = MakePictures(experiment);
+  const std::vector<RunPictures> runs = MakePictures(experiment, {});
   ASSERT_EQ(runs.size(), 3u);
   EXPECT_EQ(runs[1].run_id, kExactRun);
   for (const PictureStrip& strip : runs[1].strips) {
@@ -95,7 +96,7 @@ TEST(PictureSheet, NamesNarrowColumnsByLetters) {
 TEST(Pictures, AreTakenWhereTheRunHasFrames) {
   const TemporaryFolder root;
   const ReportedExperiment experiment = ReadExperiment(WriteSyntheticExperiment(root.path()));
-  const std::vector<RunPictures> runs = MakePictures(experiment);
+  const std::vector<RunPictures> runs = MakePictures(experiment, {});
   for (const RunPictures& run : runs) {
     EXPECT_EQ(run.problem, "");
     ASSERT_EQ(run.strips.size(), 2u);  // frame 999 does not exist

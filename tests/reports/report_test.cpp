@@ -15,6 +15,7 @@
 #include "core/files.h"
 #include "records/run_record.h"
 #include "reports/pictures/cause_pictures.h"
+#include "reports/pictures/drawn_before.h"
 #include "reports/pictures/pictures.h"
 #include "reports/synthetic_experiment.h"
 #include "support/count.h"
@@ -147,7 +148,7 @@ TEST(Report, SaysWhatHoldsTheErrors) {
   const TemporaryFolder root;
   const fs::path folder = WriteSyntheticExperiment(root.path());
   const std::string page = ReadWholeFile(WriteReport(folder));
-  const std::vector<RunCauses> runs = FindCauses(ReadExperiment(folder));
+  const std::vector<RunCauses> runs = FindCauses(ReadExperiment(folder), {});
   std::size_t events = 0;
   for (const RunCauses& run : runs) {
     EXPECT_EQ(run.problem, "");

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "reports/drawing/color_maps.h"
+#include "reports/pictures/drawn_before.h"
 #include "reports/synthetic_experiment.h"
 #include "support/temporary_folder.h"
 
@@ -25,7 +26,7 @@ class SideBySide : public testing::Test {
 };
 
 TEST_F(SideBySide, ShowsDepthTruthAndEveryRunAtThePictureFrames) {
-  const std::vector<RunPictures> sheets = MakeSideBySide(experiment_);
+  const std::vector<RunPictures> sheets = MakeSideBySide(experiment_, {});
   ASSERT_EQ(sheets.size(), 1u);
   const RunPictures& sheet = sheets.front();
   EXPECT_EQ(sheet.run_id, "side-by-side-wave");
@@ -42,7 +43,7 @@ TEST_F(SideBySide, ShowsDepthTruthAndEveryRunAtThePictureFrames) {
 }
 
 TEST_F(SideBySide, AnExactRunLooksLikeTheTruthAndAnotherDoesNot) {
-  const RunPictures sheet = MakeSideBySide(experiment_).front();
+  const RunPictures sheet = MakeSideBySide(experiment_, {}).front();
   const auto& truth = sheet.strips[1].pictures;
   const auto& waving = sheet.strips[2].pictures;
   const auto& exact = sheet.strips[3].pictures;
@@ -56,7 +57,7 @@ TEST_F(SideBySide, AnExactRunLooksLikeTheTruthAndAnotherDoesNot) {
 
 // The figure faces the camera, so that nothing of its back is seen.
 TEST_F(SideBySide, AFigureThatFacesTheCameraShowsItsFront) {
-  const RunPictures sheet = MakeSideBySide(experiment_).front();
+  const RunPictures sheet = MakeSideBySide(experiment_, {}).front();
   int front = 0, back = 0;
   for (const ColorPixel& p : sheet.strips[1].pictures[0].image.pixels()) {
     front += p[2] > p[0] + 20 ? 1 : 0;
@@ -68,15 +69,15 @@ TEST_F(SideBySide, AFigureThatFacesTheCameraShowsItsFront) {
 
 TEST_F(SideBySide, IsForThoseWhoAskAndForRunsThatHaveCompany) {
   experiment_.record.side_by_side = false;
-  EXPECT_TRUE(MakeSideBySide(experiment_).empty());
+  EXPECT_TRUE(MakeSideBySide(experiment_, {}).empty());
   experiment_.record.side_by_side = true;
   experiment_.runs[1].record->summary["repeat"] = 2;  // the same again
-  EXPECT_TRUE(MakeSideBySide(experiment_).empty());
+  EXPECT_TRUE(MakeSideBySide(experiment_, {}).empty());
 }
 
 TEST_F(SideBySide, SaysWhatIsMissing) {
   experiment_.record.picture_frames = {999};
-  EXPECT_EQ(MakeSideBySide(experiment_).front().problem,
+  EXPECT_EQ(MakeSideBySide(experiment_, {}).front().problem,
             "the sequence has none of the experiment's picture frames");
 }
 

@@ -59,6 +59,16 @@ TEST(PositionGrid, IsFineEnough) {
   }
 }
 
+// Vertices 0 … 3 of two triangles: 2 has 0 and 1 before it, 3 has 1 and 2.
+TEST(EarlierNeighbours, ShareAnEdgeAndStandBefore) {
+  const EarlierNeighbours neighbours({{0, 1, 2}, {1, 3, 2}, {2, 1, 0}, {2, 3, 1}}, 5);
+  EXPECT_THAT(neighbours.Of(0), SizeIs(0));
+  EXPECT_THAT(neighbours.Of(1), ElementsAre(0));
+  EXPECT_THAT(neighbours.Of(2), ElementsAre(0, 1, 1));  // the inner edge, from either side
+  EXPECT_THAT(neighbours.Of(3), ElementsAre(1, 2));
+  EXPECT_THAT(neighbours.Of(4), ElementsAre(3)) << "without an edge: the vertex before";
+}
+
 TEST(ThinnedMesh, KeepsVerticesOfTheMesh) {
   const TriangleMesh rest = TinyBody(6).rest;
   const auto count = static_cast<int>(rest.vertices.size());
@@ -166,6 +176,10 @@ addEventListener("load", async () => {
   const error = await look();
   input(document.querySelector("[name=color][value=bone]"));
   seen.colors_differ = (await look())[0].sum !== error[0].sum;
+  const bones = await look();
+  input(document.querySelector("[name=color][value=uncertainty]"));
+  seen.uncertainty_differs = (await look())[0].sum !== bones[0].sum;
+  input(document.querySelector("[name=layer][value=regions]"));
   input(document.querySelector("[name=layer][value=skeleton]"));
   seen.layers = [...viewer.state.layers];
   input(document.querySelector("[name=layout][value=over]"));
@@ -188,6 +202,8 @@ addEventListener("load", async () => {
   seen.most_error_m = surface.error.most_m;
   const wrist = viewer.page.series.get("joint:left_wrist");
   seen.wrist_mm = [...wrist.values[0]];
+  seen.expected_wrist_mm = [...viewer.page.series.get("uncertainty:left_wrist").values[0]];
+  seen.exact_has_uncertainty = viewer.page.series.get("uncertainty:left_wrist").values[1] !== null;
   seen.pictures = [...document.querySelectorAll("#events img")].map(picture => picture.src.length);
   seen.unnamed = [...document.querySelectorAll("button, input, select")].filter(
       control => !(control.labels && control.labels.length) && !control.ariaLabel &&
@@ -255,7 +271,9 @@ TEST_F(ViewerInBrowser, IsDrivenByMouseAndKeys) {
     worst.push_back(event.at("worst"));
   EXPECT_THAT(worst, Contains(p.at("worst").get<int>()));
   EXPECT_TRUE(p.at("colors_differ"));
-  EXPECT_THAT(p.at("layers"), Contains("skeleton"));
+  EXPECT_TRUE(p.at("uncertainty_differs"));
+  EXPECT_FALSE(p.at("exact_has_uncertainty").get<bool>());
+  EXPECT_THAT(p.at("layers"), AllOf(Contains("skeleton"), Contains("regions")));
   EXPECT_THAT(p.at("values").get<std::string>(), HasSubstr(" − "));
   EXPECT_TRUE(p.at("playing"));
   for (const nlohmann::json& size : p.at("pictures")) EXPECT_GT(size, 500);
@@ -275,7 +293,8 @@ TEST_F(ViewerInBrowser, IsDrivenByMouseAndKeys) {
       EXPECT_NEAR(p.at("vertices")[3 * v + axis], vertices[v][axis], 0.00006);
     // Half a step of the byte: the square root of the share is stored.
     const double root = std::sqrt(errors_m[v] / most_m), half = 0.5 / 255.0;
-    EXPECT_NEAR(p.at("errors_m")[v], errors_m[v], most_m * half * (2.0 * root + half) + 1e-6);
+    EXPECT_NEAR(p.at("errors_m")[v], errors_m[v],
+                most_m * half * (2.0 * root + half) + 0.5 * kFinestStep_m + 1e-6);
   }
   const int wrist = FindJoint("left_wrist");
   for (int frame = 0; frame < kSyntheticFrames; ++frame) {
@@ -283,6 +302,8 @@ TEST_F(ViewerInBrowser, IsDrivenByMouseAndKeys) {
         (estimate.frames()[frame].joints[wrist] - sequence.true_joints(frame).positions[wrist])
             .norm();
     EXPECT_NEAR(p.at("wrist_mm")[frame], 1e3 * error_m, 1e-3);
+    const double trace_m2 = estimate.frames()[frame].covariance_m2(wrist).trace();
+    EXPECT_NEAR(p.at("expected_wrist_mm")[frame], 1e3 * std::sqrt(trace_m2), 1e-3);
   }
 }
 
