@@ -10,7 +10,9 @@
 //
 // Each variant of the experiment is carried out with each point of the sweep. The variant's name
 // says which: "default,fit.edge_px=2,scene.frames=30". "scale" also says how a plot over the
-// setting shows it.
+// setting shows it. What must change with a setting goes along with it, value by value:
+//
+//   {"setting": "scene.motion.speed", "values": [1, 2], "along": {"scene.frames": [240, 120]}}
 #pragma once
 
 #include <string>
@@ -28,6 +30,7 @@ struct SweepAxis {
   double from = 0.0, to = 0.0;
   int steps = 0;  // 0: no range
   SweepScale scale = SweepScale::kLinear;
+  Json along = Json::object();  // other settings → a value for each of `values`
 
   void Describe(Fields& fields);
   std::string Problem() const;

@@ -30,8 +30,6 @@ Metric ErrorMetricOf(const ReportedExperiment& experiment) {
 
 namespace {
 
-// An axis whose values differ by more than this factor is logarithmic.
-constexpr double kWideRange = 20.0;
 constexpr Color kFrontInk{0x55, 0x55, 0x55};
 constexpr double kFrontDash = 4.0;
 
@@ -102,13 +100,6 @@ Series Drawn(const SpeedPoint& point, std::size_t index, bool numbered) {
   series.y = {point.error};
   if (numbered) series.label = fmt::format("{}", index + 1);
   return series;
-}
-
-Scale ScaleFor(std::vector<double> values) {
-  std::erase_if(values, [](double value) { return !(value > 0.0); });
-  if (values.empty()) return Scale::kLinear;
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  return *most > kWideRange * *least ? Scale::kLogarithmic : Scale::kLinear;
 }
 
 std::string ThreadsText(const ReportedExperiment& experiment) {

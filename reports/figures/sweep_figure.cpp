@@ -182,6 +182,13 @@ std::vector<Series> SceneLines(const SweptVariant& variant, const Metric& metric
   return all;
 }
 
+std::vector<double> ValuesIn(const Panel& panel) {
+  std::vector<double> values;
+  for (const Series& series : panel.series)
+    values.insert(values.end(), series.y.begin(), series.y.end());
+  return values;
+}
+
 Panel SweepPanel(const SweptSetting& setting, const std::vector<SweptVariant>& variants,
                  const Metric& metric) {
   const ValueAxis axis(variants, setting.scale);
@@ -191,6 +198,7 @@ Panel SweepPanel(const SweptSetting& setting, const std::vector<SweptVariant>& v
   if (variants.size() == 1) panel.series = SceneLines(variants.front(), metric, axis);
   for (std::size_t i = 0; i < variants.size(); ++i)
     panel.series.push_back(MeanLine(variants[i], VariantColor(i), metric, axis));
+  panel.y_scale = ScaleFor(ValuesIn(panel));
   if (const std::optional<double> at = axis.Position(setting.default_value))
     panel.x_references = {{"default: " + PrintedValue(setting.default_value), *at}};
   return panel;

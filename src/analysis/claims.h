@@ -35,18 +35,19 @@ struct ClaimFinding {
   std::string statement;        // what is tested, with the bound
   std::string published, ours;  // printed, with unit; "–" where there is no number
   ClaimVerdict verdict = ClaimVerdict::kCannotBeTested;
-  std::string reason;  // why it cannot be tested; "" if it can
+  std::string reason;  // what it fails by, or why it cannot be tested; "" if it holds
 };
 
 // Over the finished runs of all these experiments. A pair shares experiment, scene, seed and
 // repeat; where several runs of `against` do, the one of the same method or else of the same
-// variant. A difference counts only if its interval says so (paired_comparison.h), so fewer pairs
-// than FewestPairs test nothing.
+// variant. What counts as a difference says paired_comparison.h; fewer pairs than FewestPairs test
+// nothing.
 ClaimFinding Decide(const ClaimTest& test, const std::vector<ReportedExperiment>& experiments);
 
 struct ClaimDecision {
   ClaimVerdict verdict = ClaimVerdict::kCannotBeTested;
-  std::string reason;  // why it cannot be tested; "" if it can
+  // Which of the tests fail and by what, or why it cannot be tested; "" if it holds.
+  std::string reason;
   std::vector<ClaimFinding> findings;
 };
 // A claim holds if all of its tests hold, and does not if one does not. Without tests, and where a

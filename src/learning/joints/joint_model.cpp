@@ -53,6 +53,20 @@ std::optional<Vector3d> ModeOf(const std::vector<WeightedPlace>& votes,
   return best.cast<double>();
 }
 
+// From a place to where the trees lead.
+Vector3d Walk(const std::vector<VotingTree>& trees, int steps, const WholeDepth& view,
+              const PinholeCamera& camera, const Vector3d& start) {
+  Vector3f place = start.cast<float>();
+  for (int i = 0; i < steps && !trees.empty(); ++i) {
+    const FeaturePoint here(camera, place);
+    Vector3f sum = Vector3f::Zero();
+    for (const VotingTree& tree : trees)
+      sum += Eigen::Map<const Vector3f>(tree.LeafOf(view, here).front().offset_m.data());
+    place += sum / static_cast<float>(trees.size());
+  }
+  return place.cast<double>();
+}
+
 }  // namespace
 
 void VoteSettings::Describe(Fields& f) {
@@ -77,6 +91,11 @@ void VoteSettings::Describe(Fields& f) {
             .source = "Shotton et al. 2011: for each joint by a grid search"});
   f.Integer("shifts", shifts,
             {.meaning = "steps of the mean shift over votes at most",
+             .min = 0,
+             .max = 1000,
+             .origin = Origin::kGuessed});
+  f.Integer("steps", steps,
+            {.meaning = "steps of the walk from the votes' mode to a joint",
              .min = 0,
              .max = 1000,
              .origin = Origin::kGuessed});
@@ -106,7 +125,10 @@ DetectedPoints JointDetector::Detect(const DepthImage& depth, const PinholeCamer
     }
   }
   DetectedPoints found;
-  for (int p = 0; p < kBodyPointCount; ++p) found[p] = ModeOf(votes[p], settings_);
+  for (int p = 0; p < kBodyPointCount; ++p) {
+    found[p] = ModeOf(votes[p], settings_);
+    if (found[p]) found[p] = Walk(model_.walks[p], settings_.steps, view, camera, *found[p]);
+  }
   return found;
 }
 

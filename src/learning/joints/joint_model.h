@@ -4,8 +4,9 @@
 // After Girshick, Shotton, Kohli, Criminisi & Fitzgibbon, ICCV 2011: every pixel of a grid comes to
 // a leaf of each tree and votes for the points that the leaf knows; a point is the mode of its
 // votes by mean shift. Departures: a leaf votes for a fixed number of points, its best, and a vote
-// weighs what its leaf's deviation and the pixel's area are worth. No frame knows of the one
-// before.
+// weighs what its leaf's deviation and the pixel's area are worth; and from the mode a walk goes to
+// the point, each step by the mean of what the point's walk trees say (Jung, Lee, Heo & Yun, CVPR
+// 2015, whose walks start at the point before on the skeleton). No frame knows of the one before.
 #pragma once
 
 #include <filesystem>
@@ -22,6 +23,7 @@ namespace vitruvia::joints {
 
 struct JointModel {
   std::vector<VotingTree> trees;
+  std::array<std::vector<VotingTree>, kBodyPointCount> walks;  // of each point; empty: none
 };
 
 struct VoteSettings {
@@ -29,6 +31,7 @@ struct VoteSettings {
   double deviation_m = 0.03;
   double bandwidth_m = 0.06;
   int shifts = 6;
+  int steps = 6;
 
   void Describe(Fields& fields);
 };

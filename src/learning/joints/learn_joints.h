@@ -20,10 +20,24 @@ struct JointExample {
   BodyPointPositions points;  // camera frame, metres
 };
 
+struct WalkSettings {
+  int trees = 3;             // of each point
+  int starts_per_image = 8;  // of each point and tree
+  double deviation_m = 0.06;
+  TreeSettings tree{.depth = 18,
+                    .least_pixels = 8,
+                    .candidates = 150,
+                    .split_pixels = 1000,
+                    .reach_m = 0.4};
+
+  void Describe(Fields& fields);
+};
+
 struct ForestSettings {
   int trees = 3;
   int pixels_per_image = 250;
   TreeSettings tree;
+  WalkSettings walks;
   int seed = 1;
 
   void Describe(Fields& fields);

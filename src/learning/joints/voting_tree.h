@@ -1,7 +1,9 @@
-// A decision tree over depth features: from a pixel on a body to votes for where joints are.
+// A decision tree over depth features: from a place on a body to votes for where joints are.
 //
-// Its splits tell apart the body parts that pixels show (Shotton et al. 2011); its leaves hold the
-// mean offsets of the points that its training pixels agree on best (Girshick et al. 2011).
+// The splits of a voting tree tell apart the body parts that pixels show (Shotton et al. 2011); its
+// leaves hold the mean offsets of the points that its training pixels agree on best (Girshick et
+// al. 2011). The splits of a walk tree make the offsets to one point agree, from places round that
+// point; a walk goes from place to place by the offsets of its leaves (Jung et al. 2015).
 #pragma once
 
 #include <array>
@@ -15,7 +17,8 @@
 
 namespace vitruvia::joints {
 
-// A pixel of a training image: the part that it shows, and where the points are.
+// A place in a training image, on the surface or within the body: the part that it shows, and where
+// the points are.
 struct TrainingPixel {
   const CroppedDepth* depth;
   FeaturePoint place;
@@ -69,5 +72,10 @@ struct VotingTree {
 // Reorders the pixels, of which there is one at least.
 VotingTree GrowTree(std::span<TrainingPixel> pixels, const TreeSettings& settings,
                     RandomStream& random);
+
+// The same, but each split leaves the least sum of squares of the offsets to the point, and leaves
+// vote for it alone.
+VotingTree GrowWalkTree(std::span<TrainingPixel> pixels, int point, const TreeSettings& settings,
+                        RandomStream& random);
 
 }  // namespace vitruvia::joints
