@@ -138,7 +138,8 @@ void DecideBound(const ClaimTest& test, const Metric& metric,
 // Why the difference is not shown to be one for the better; "" if it is.
 std::string NotBetter(const PairedComparison& comparison, const Metric& metric) {
   const bool higher_is_better = metric.better == Better::kHigher;
-  if (comparison.verdict == (higher_is_better ? Difference::kHigher : Difference::kLower)) return "";
+  if (comparison.verdict == (higher_is_better ? Difference::kHigher : Difference::kLower))
+    return "";
   const Interval& interval = comparison.interval;
   if (interval.low <= 0.0 && interval.high >= 0.0) return "the interval holds 0";
   if (higher_is_better ? interval.high < 0.0 : interval.low > 0.0) return "it is worse";
@@ -148,8 +149,7 @@ std::string NotBetter(const PairedComparison& comparison, const Metric& metric) 
 }
 
 std::string NotWithin(const Interval& interval, double margin) {
-  return interval.low >= -margin && interval.high <= margin ? ""
-                                                            : "the interval leaves the margin";
+  return interval.low >= -margin && interval.high <= margin ? "" : "the interval leaves the margin";
 }
 
 void DecidePairs(const ClaimTest& test, const Metric& metric,

@@ -32,7 +32,7 @@ TEST(DepthFeature, DoesNotDependOnTheDistance) {
   const DepthFeature across{FeatureKind::kTwoDepths, 0.1f, 0.0f, 0.3f, 0.0f};
   for (const float z : {1.5f, 3.0f}) {
     const DepthImage depth = Plate(camera, z);
-    const WholeDepth view{depth, 8.0f};
+    const WholeDepth view{depth, 8.0f, 1.0f};
     const FeaturePoint behind(camera, {0.0f, 0.0f, z + 0.05f});
     EXPECT_NEAR(inside.Of(view, behind), -0.05f, 1e-6f);
     EXPECT_NEAR(across.Of(view, behind), -0.05f - kBackground_m, 1e-6f);
@@ -141,7 +141,8 @@ TEST_F(LearntJoints, AreFoundInTheImagesThatWereLearntFrom) {
   const JointDetector detector(Model(), {.stride_px = 2});
   std::vector<double> errors_m;
   for (const JointExample& example : Images()) {
-    const DetectedPoints found = detector.Detect(Whole(example), Examples().camera, kFarthest_m);
+    const DetectedPoints found =
+        detector.Detect(Whole(example), Examples().camera, kFarthest_m, 1.0);
     for (int p = 0; p < kBodyPointCount; ++p) {
       if (found[p]) errors_m.push_back((*found[p] - example.points[p]).norm());
     }
@@ -153,7 +154,8 @@ TEST_F(LearntJoints, AreFoundInTheImagesThatWereLearntFrom) {
 
 TEST_F(LearntJoints, FindNothingInAnEmptyImage) {
   const JointDetector detector(Model(), {});
-  for (const auto& point : detector.Detect(DepthImage(160, 120), Examples().camera, kFarthest_m)) {
+  for (const auto& point :
+       detector.Detect(DepthImage(160, 120), Examples().camera, kFarthest_m, 1.0)) {
     EXPECT_FALSE(point);
   }
 }

@@ -31,7 +31,7 @@ struct VoteSettings {
   double deviation_m = 0.03;
   double bandwidth_m = 0.06;
   int shifts = 6;
-  int steps = 6;
+  int steps = 24;
 
   void Describe(Fields& fields);
 };
@@ -45,9 +45,9 @@ class JointDetector {
   JointDetector(const JointModel& model, const VoteSettings& settings)
       : model_(model), settings_(settings) {}
 
-  // The image shows the person alone.
-  DetectedPoints Detect(const DepthImage& depth, const PinholeCamera& camera,
-                        double max_depth_m) const;
+  // The image shows the person alone, who is of that size (SizeOf).
+  DetectedPoints Detect(const DepthImage& depth, const PinholeCamera& camera, double max_depth_m,
+                        double size) const;
 
  private:
   const JointModel& model_;

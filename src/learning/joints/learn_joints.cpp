@@ -135,8 +135,7 @@ JointModel LearnJoints(const std::vector<JointExample>& examples, const PinholeC
   };
   const auto grow_walk_tree = [&](int point, int t) {
     RandomStream random(seed, fmt::format("walk tree {} of point {}", t, point));
-    std::vector<TrainingPixel> starts =
-        DrawStarts(examples, camera, point, settings.walks, random);
+    std::vector<TrainingPixel> starts = DrawStarts(examples, camera, point, settings.walks, random);
     if (starts.empty()) throw DataError("joint examples: no image shows a part of a body");
     model.walks[point][static_cast<std::size_t>(t)] =
         GrowWalkTree(starts, point, settings.walks.tree, random);

@@ -14,6 +14,7 @@ struct LabelledPixel {
   std::uint8_t bone;
 };
 
+// All lengths are divided by the person's size (SizeOf).
 struct JointExample {
   CroppedDepth depth;
   std::vector<LabelledPixel> pixels;
@@ -22,20 +23,16 @@ struct JointExample {
 
 struct WalkSettings {
   int trees = 3;             // of each point
-  int starts_per_image = 8;  // of each point and tree
+  int starts_per_image = 3;  // of each point and tree
   double deviation_m = 0.06;
-  TreeSettings tree{.depth = 18,
-                    .least_pixels = 8,
-                    .candidates = 150,
-                    .split_pixels = 1000,
-                    .reach_m = 0.4};
+  TreeSettings tree{.least_pixels = 8, .candidates = 100, .split_pixels = 800, .reach_m = 0.4};
 
   void Describe(Fields& fields);
 };
 
 struct ForestSettings {
-  int trees = 3;
-  int pixels_per_image = 250;
+  int trees = 2;
+  int pixels_per_image = 90;
   TreeSettings tree;
   WalkSettings walks;
   int seed = 1;

@@ -193,8 +193,8 @@ class Grower {
       double square = 0.0;
       for (const TrainingPixel& pixel : pixels) square += (OffsetTo(p, pixel) - mean).squaredNorm();
       const Vector3f offset = mean.cast<float>();
-      votes.push_back({p, static_cast<float>(std::sqrt(square / count)),
-                       {offset.x(), offset.y(), offset.z()}});
+      votes.push_back(
+          {p, static_cast<float>(std::sqrt(square / count)), {offset.x(), offset.y(), offset.z()}});
     }
     std::stable_sort(votes.begin(), votes.end(), [](const PointVote& a, const PointVote& b) {
       return a.deviation_m < b.deviation_m;

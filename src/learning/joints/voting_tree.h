@@ -38,8 +38,8 @@ struct PointVote {
 struct TreeSettings {
   int depth = 18;
   int least_pixels = 20;
-  int candidates = 150;
-  int split_pixels = 2000;
+  int candidates = 80;
+  int split_pixels = 1000;
   double reach_m = 0.5;
 
   void Describe(Fields& fields);
