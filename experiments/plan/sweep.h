@@ -10,7 +10,9 @@
 //
 // Each variant of the experiment is run with each point of the sweep, whose label is appended to
 // the variant's name: "default,fit.edge_px=2,scene.frames=30". "scale" is also the scale of plots
-// over the setting.
+// over the setting. Settings that must change with it go along, one value for each of its values:
+//
+//   {"setting": "scene.motion.speed", "values": [1, 2], "along": {"scene.frames": [240, 120]}}
 #pragma once
 
 #include <string>
@@ -28,6 +30,7 @@ struct SweepAxis {
   double from = 0.0, to = 0.0;
   int steps = 0;  // 0: no range
   SweepScale scale = SweepScale::kLinear;
+  Json along = Json::object();  // other settings → a value for each of `values`
 
   void Describe(Fields& fields);
   std::string Problem() const;

@@ -121,7 +121,8 @@ CarriedOutFigures CarryOutFigures(const ReproductionList& list,
     for (const fs::path& file : figure.experiments) {
       const MadeExperiment& experiment = made.at(file);
       if (!experiment.problem.empty()) {
-        records.problems.push_back(experiment.problem);
+        records.problems.push_back(
+            fmt::format("without {}: {}", ConfigName(file), experiment.problem));
       } else {
         records.experiments.push_back(experiment.records);
       }

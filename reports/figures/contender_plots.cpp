@@ -77,7 +77,7 @@ double MeanInScene(const Contender& contender, const std::string& scene, const M
   return values.empty() ? NAN : Mean(values);
 }
 
-// The outlines of one contender's bars: bar `index` of `count` at each scene's number.
+// The outlines of one contender's bars: bar `index` of `count` round each scene's number.
 Series BarsOf(const Contender& contender, const std::vector<std::string>& scenes,
               const Metric& metric, std::size_t index, std::size_t count) {
   Series bars = NamedSeries(contender.name, index);
@@ -85,7 +85,8 @@ Series BarsOf(const Contender& contender, const std::vector<std::string>& scenes
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     const double height = MeanInScene(contender, scenes[s], metric);
     if (std::isnan(height)) continue;
-    const double left = static_cast<double>(s) + 0.5 * kBarGap + width * static_cast<double>(index);
+    const double left =
+        static_cast<double>(s) - 0.5 * (1.0 - kBarGap) + width * static_cast<double>(index);
     const double right = left + 0.9 * width;
     bars.x.insert(bars.x.end(), {left, left, right, right, right});
     bars.y.insert(bars.y.end(), {0.0, height, height, 0.0, NAN});
@@ -98,10 +99,11 @@ Figure Histogram(const std::vector<Contender>& contenders, const std::vector<std
   Figure figure;
   figure.name = kJointsByScene;
   figure.title = "Joints within 10 cm, scene by scene";
-  figure.caption = "Scenes from left to right: " + fmt::format("{}", fmt::join(scenes, ", ")) + ".";
-  Panel panel{"", "scene (in this order)", Titled(metric), {}, {}, {}};
+  figure.caption = "One bar for each contender, the mean over its runs of the scene.";
+  Panel panel{"", "scene", Titled(metric), {}, {}, {}};
+  for (std::size_t s = 0; s < scenes.size(); ++s)
+    panel.x_ticks.push_back({static_cast<double>(s), scenes[s]});
   panel.y_end = 100.0;
-  panel.x_end = static_cast<double>(scenes.size());
   for (std::size_t c = 0; c < contenders.size(); ++c)
     panel.series.push_back(BarsOf(contenders[c], scenes, metric, c, contenders.size()));
   figure.panels = {std::move(panel)};

@@ -48,6 +48,14 @@ std::string FileSafe(std::string text) {
   return text;
 }
 
+Scale ScaleFor(std::vector<double> values) {
+  constexpr double kWideRange = 20.0;
+  std::erase_if(values, [](double value) { return !(value > 0.0); });
+  if (values.empty()) return Scale::kLinear;
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return *most > kWideRange * *least ? Scale::kLogarithmic : Scale::kLinear;
+}
+
 Color VariantColor(std::size_t index) { return kRunColors[index % kRunColors.size()]; }
 
 std::string ThreadsText(const std::vector<const RunRecord*>& runs) {

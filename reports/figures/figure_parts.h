@@ -28,6 +28,9 @@ std::vector<std::string> ScenesOf(const std::vector<const RunRecord*>& runs);
 // A name as part of a file's name: letters, digits, - and _.
 std::string FileSafe(std::string text);
 
+// Logarithmic where the positive ones of the values differ by more than a factor of 20.
+Scale ScaleFor(std::vector<double> values);
+
 // The colour of the i-th variant, in all figures.
 Color VariantColor(std::size_t index);
 

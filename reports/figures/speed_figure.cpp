@@ -29,8 +29,6 @@ Metric ErrorMetricOf(const ReportedExperiment& experiment) {
 
 namespace {
 
-// An axis whose values differ by more than this factor is logarithmic.
-constexpr double kWideRange = 20.0;
 constexpr Color kFrontInk{0x55, 0x55, 0x55};
 constexpr double kFrontDash = 4.0;
 

@@ -56,8 +56,17 @@ void AddRun(SweptVariant& variant, const Json& value, const RunRecord* run) {
   }
 }
 
-SweptVariant& VariantOf(const RunRecord& run, std::vector<SweptVariant>& variants) {
-  const std::string name = fmt::format("{}/{}", run.method, UnsweptName(run.variant));
+// "method/variant" without what the sweep added; the method alone where all variants are one.
+std::string NameOf(const RunRecord& run, const ReportedExperiment& experiment) {
+  const std::vector<const RunRecord*> runs = experiment.finished();
+  const std::string unswept = UnsweptName(run.variant);
+  const bool is_only_one = std::all_of(
+      runs.begin(), runs.end(),
+      [&unswept](const RunRecord* other) { return UnsweptName(other->variant) == unswept; });
+  return is_only_one ? run.method : fmt::format("{}/{}", run.method, unswept);
+}
+
+SweptVariant& VariantOf(const std::string& name, std::vector<SweptVariant>& variants) {
   for (SweptVariant& variant : variants) {
     if (variant.name == name) return variant;
   }
@@ -70,7 +79,7 @@ std::vector<SweptVariant> VariantsOver(const SweptSetting& setting,
   std::vector<SweptVariant> variants;
   for (const RunRecord* run : experiment.finished()) {
     if (!AreOthersAtDefault(*run, experiment.record.sweep, &setting)) continue;
-    AddRun(VariantOf(*run, variants), ValueAt(run->config, setting.path), run);
+    AddRun(VariantOf(NameOf(*run, experiment), variants), ValueAt(run->config, setting.path), run);
   }
   if (AreNumbers(variants)) {
     for (SweptVariant& variant : variants)
@@ -183,6 +192,13 @@ std::vector<Series> SceneLines(const SweptVariant& variant, const Metric& metric
   return all;
 }
 
+std::vector<double> ValuesIn(const Panel& panel) {
+  std::vector<double> values;
+  for (const Series& series : panel.series)
+    values.insert(values.end(), series.y.begin(), series.y.end());
+  return values;
+}
+
 Panel SweepPanel(const SweptSetting& setting, const std::vector<SweptVariant>& variants,
                  const Metric& metric) {
   const ValueAxis axis(variants, setting.scale);
@@ -192,6 +208,7 @@ Panel SweepPanel(const SweptSetting& setting, const std::vector<SweptVariant>& v
   if (variants.size() == 1) panel.series = SceneLines(variants.front(), metric, axis);
   for (std::size_t i = 0; i < variants.size(); ++i)
     panel.series.push_back(MeanLine(variants[i], VariantColor(i), metric, axis));
+  panel.y_scale = ScaleFor(ValuesIn(panel));
   if (const std::optional<double> at = axis.Position(setting.default_value))
     panel.x_references = {{"default: " + PrintedValue(setting.default_value), *at}};
   return panel;

@@ -53,7 +53,7 @@ figcaption b { color: var(--ink); font-size: 1.02rem; display: block; }
 figure.plot svg { display: block; width: 100%; min-width: 540px; max-width: 900px; height: auto;
                   margin-top: .4rem; }
 .cells { display: grid; gap: .5rem; grid-template-columns: repeat(7, minmax(0, 1fr)); }
-.cells.few { grid-template-columns: repeat(auto-fill, minmax(min(100%, 220px), 300px)); }
+.cells.few { grid-template-columns: repeat(auto-fill, minmax(min(100%, 220px), 290px)); }
 .cells figure { margin: 0; }
 .cells img { display: block; width: 100%; height: auto; border: 1px solid var(--line); }
 .cells figcaption { font-size: .78rem; line-height: 1.3; padding-top: .2rem; }

@@ -105,7 +105,8 @@ std::string TestsTable(const ReproducedFigure& figure, const ClaimDecision& deci
          rows + "</tbody></table></div>\n";
 }
 
-// Leaves out the pictures whose titles match no pattern.
+// Leaves out the pictures whose titles match no pattern, and the scale of errors with the last of
+// them that shows any.
 void KeepPanels(const std::vector<std::string>& patterns, RunPictures& run) {
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < run.titles.size(); ++i) {
@@ -118,11 +119,19 @@ void KeepPanels(const std::vector<std::string>& patterns, RunPictures& run) {
   };
   for (PictureStrip& strip : run.strips) keep(strip.pictures);
   keep(run.titles);
+  const bool shows_errors =
+      std::any_of(run.titles.begin(), run.titles.end(),
+                  [](const std::string& title) { return title.starts_with("error"); });
+  if (!shows_errors) run.error_scale_m = 0.0;
 }
 
 std::vector<RunPictures> PicturesOf(const ReportedExperiment& experiment,
                                     const ShownPictures& shown) {
   ReportedExperiment chosen = RunsThatMatch(experiment, shown.of, shown.scenes);
+  std::erase_if(chosen.runs, [&shown](const ReportedRun& run) {
+    const std::vector<int>& seeds = shown.seeds;
+    return !seeds.empty() && std::find(seeds.begin(), seeds.end(), run.record->seed) == seeds.end();
+  });
   if (chosen.runs.empty()) return {};
   if (!shown.frames.empty()) chosen.record.picture_frames = shown.frames;
   chosen.record.side_by_side = shown.side_by_side;
@@ -150,11 +159,26 @@ bool IsChosen(const Figure& plot, const std::vector<std::string>& names) {
                      [&plot](const std::string& name) { return plot.name.starts_with(name); });
 }
 
+// Whether the figure is about methods over all of their variants, as its tables are.
+bool IsOverVariants(const ReproducedFigure& figure) {
+  return std::any_of(figure.tables.begin(), figure.tables.end(),
+                     [](const ShownTable& table) { return table.rows == TableRows::kMethods; });
+}
+
+ReportedExperiment OverVariants(ReportedExperiment experiment) {
+  for (ReportedRun& run : experiment.runs) {
+    if (run.record) run.record->variant.clear();
+  }
+  return experiment;
+}
+
 std::vector<Figure> PlotsOf(const FigureRecords& records) {
   std::vector<Figure> plots;
   if (records.figure.plots.empty()) return plots;
   for (std::size_t e = 0; e < records.experiments.size(); ++e) {
-    const ReportedExperiment& experiment = records.experiments[e];
+    const ReportedExperiment experiment = IsOverVariants(records.figure)
+                                              ? OverVariants(records.experiments[e])
+                                              : records.experiments[e];
     std::vector<Figure> all = MakeFigures(experiment);
     for (Figure& plot : MakeContenderPlots(experiment)) all.push_back(std::move(plot));
     for (Figure& plot : all) {

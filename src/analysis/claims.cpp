@@ -126,17 +126,30 @@ void DecideBound(const ClaimTest& test, const Metric& metric,
     finding.ours += fmt::format(" ({} … {}, {} runs)", Printed(*least, metric),
                                 Printed(*most, metric), values.size());
   }
-  const bool is_kept = !std::isnan(test.at_most) ? mean <= test.at_most : mean >= test.at_least;
-  finding.verdict = is_kept ? ClaimVerdict::kHolds : ClaimVerdict::kDoesNotHold;
+  const bool is_upper = !std::isnan(test.at_most);
+  const double excess = is_upper ? mean - test.at_most : test.at_least - mean;
+  finding.verdict = excess <= 0.0 ? ClaimVerdict::kHolds : ClaimVerdict::kDoesNotHold;
+  if (excess > 0.0) {
+    finding.reason = fmt::format("{} the bound by {}", is_upper ? "above" : "below",
+                                 WithUnit(Printed(excess, metric), metric));
+  }
 }
 
-bool IsBetter(const PairedComparison& comparison, const Metric& metric) {
-  return comparison.verdict ==
-         (metric.better == Better::kHigher ? Difference::kHigher : Difference::kLower);
+// Why the difference is not shown to be one for the better; "" if it is.
+std::string NotBetter(const PairedComparison& comparison, const Metric& metric) {
+  const bool higher_is_better = metric.better == Better::kHigher;
+  if (comparison.verdict == (higher_is_better ? Difference::kHigher : Difference::kLower))
+    return "";
+  const Interval& interval = comparison.interval;
+  if (interval.low <= 0.0 && interval.high >= 0.0) return "the interval holds 0";
+  if (higher_is_better ? interval.high < 0.0 : interval.low > 0.0) return "it is worse";
+  return fmt::format("the interval is clear of 0, but p = {:.2f} by Student's test over {} {}",
+                     comparison.p, comparison.unit_difference.count,
+                     comparison.scenes > 1 ? "scenes" : "pairs");
 }
 
-bool IsWithin(const Interval& interval, double margin) {
-  return interval.low >= -margin && interval.high <= margin;
+std::string NotWithin(const Interval& interval, double margin) {
+  return interval.low >= -margin && interval.high <= margin ? "" : "the interval leaves the margin";
 }
 
 void DecidePairs(const ClaimTest& test, const Metric& metric,
@@ -161,10 +174,10 @@ void DecidePairs(const ClaimTest& test, const Metric& metric,
                               PrintedSigned(comparison.difference.mean, metric),
                               PrintedSigned(comparison.interval.low, metric),
                               PrintedSigned(comparison.interval.high, metric), pairs);
-  const bool holds = test.relation == ClaimRelation::kBetter
-                         ? IsBetter(comparison, metric)
-                         : IsWithin(comparison.interval, test.margin);
-  finding.verdict = holds ? ClaimVerdict::kHolds : ClaimVerdict::kDoesNotHold;
+  finding.reason = test.relation == ClaimRelation::kBetter
+                       ? NotBetter(comparison, metric)
+                       : NotWithin(comparison.interval, test.margin);
+  finding.verdict = finding.reason.empty() ? ClaimVerdict::kHolds : ClaimVerdict::kDoesNotHold;
 }
 
 std::string BoundProblem(const ClaimTest& test) {
@@ -180,6 +193,22 @@ std::string PairProblem(const ClaimTest& test, const char* relation) {
   if (!std::isnan(test.at_most) || !std::isnan(test.at_least))
     return fmt::format("relation {}: expected neither at_most nor at_least", relation);
   return "";
+}
+
+int Count(const std::vector<ClaimFinding>& findings, ClaimVerdict verdict) {
+  return static_cast<int>(
+      std::count_if(findings.begin(), findings.end(),
+                    [verdict](const ClaimFinding& f) { return f.verdict == verdict; }));
+}
+
+// Of the findings with that verdict.
+std::string Reasons(const std::vector<ClaimFinding>& findings, ClaimVerdict verdict) {
+  std::vector<std::string> reasons;
+  for (const ClaimFinding& finding : findings) {
+    if (finding.verdict == verdict)
+      reasons.push_back(fmt::format("{} ({})", finding.statement, finding.reason));
+  }
+  return fmt::format("{}", fmt::join(reasons, "; "));
 }
 
 }  // namespace
@@ -257,15 +286,16 @@ ClaimDecision Decide(const std::vector<ClaimTest>& tests,
     decision.reason = "no test decides on it";
     return decision;
   }
-  decision.verdict = ClaimVerdict::kHolds;
-  for (const ClaimTest& test : tests) {
-    const ClaimFinding& finding = decision.findings.emplace_back(Decide(test, experiments));
-    if (finding.verdict == ClaimVerdict::kDoesNotHold) decision.verdict = finding.verdict;
-    if (finding.verdict != ClaimVerdict::kCannotBeTested) continue;
-    if (decision.reason.empty()) decision.reason = finding.reason;
-    if (decision.verdict == ClaimVerdict::kHolds) decision.verdict = finding.verdict;
+  using enum ClaimVerdict;
+  for (const ClaimTest& test : tests) decision.findings.push_back(Decide(test, experiments));
+  decision.verdict = kHolds;
+  for (const ClaimVerdict worse : {kCannotBeTested, kDoesNotHold}) {
+    if (Count(decision.findings, worse) > 0) decision.verdict = worse;
   }
-  if (decision.verdict != ClaimVerdict::kCannotBeTested) decision.reason.clear();
+  if (decision.verdict == kHolds) return decision;
+  decision.reason = Reasons(decision.findings, decision.verdict);
+  if (const int held = Count(decision.findings, kHolds); held > 0)
+    decision.reason += fmt::format("; {} of {} tests hold", held, tests.size());
   return decision;
 }
 

@@ -35,18 +35,19 @@ struct ClaimFinding {
   std::string statement;        // what is tested, with the bound
   std::string published, ours;  // printed, with unit; "–" where there is no number
   ClaimVerdict verdict = ClaimVerdict::kCannotBeTested;
-  std::string reason;  // why it cannot be tested; "" if it can
+  std::string reason;  // what it fails by, or why it cannot be tested; "" if it holds
 };
 
 // Uses the finished runs of all these experiments. The runs of a pair share experiment, scene, seed
 // and repeat; if several runs of `against` match, the one with the same method, or else the same
-// variant, is taken. A difference counts only if it is significant (paired_comparison.h), so with
-// fewer pairs than FewestPairs the claim cannot be tested.
+// variant, is taken. What counts as a difference says paired_comparison.h; with fewer pairs than
+// FewestPairs the claim cannot be tested.
 ClaimFinding Decide(const ClaimTest& test, const std::vector<ReportedExperiment>& experiments);
 
 struct ClaimDecision {
   ClaimVerdict verdict = ClaimVerdict::kCannotBeTested;
-  std::string reason;  // why it cannot be tested; "" if it can
+  // Which of the tests fail and by what, or why it cannot be tested; "" if it holds.
+  std::string reason;
   std::vector<ClaimFinding> findings;
 };
 // A claim holds if all of its tests hold, and does not hold if one of them does not. It cannot be

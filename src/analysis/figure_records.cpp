@@ -45,7 +45,7 @@ ClaimDecision DecideFigure(const FigureRecords& records) {
   const ReproducedFigure& figure = records.figure;
   ClaimDecision decision = Decide(figure.tests, records.experiments);
   std::string reason = figure.cannot_be_tested;
-  if (reason.empty() && !records.problems.empty()) reason = records.problems.front();
+  if (reason.empty()) reason = fmt::format("{}", fmt::join(records.problems, "; "));
   if (reason.empty()) reason = UnfinishedProblem(records.experiments);
   if (figure.claim.empty()) decision.reason.clear();  // no test was asked for
   if (reason.empty()) return decision;

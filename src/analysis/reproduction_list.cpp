@@ -30,6 +30,7 @@ void ExperimentReduction::Describe(Fields& f) {
 void ShownPictures::Describe(Fields& f) {
   f.Text("of", of, {.meaning = "contenders whose runs are shown: pattern of \"method/variant\""});
   f.Texts("scenes", scenes, {.meaning = "patterns of the scenes that are shown; all if empty"});
+  f.Integers("seeds", seeds, {.meaning = "seeds that are shown; all if empty", .min = 0});
   f.Integers("frames", frames,
              {.meaning = "frames that are shown; those of the experiment if empty", .min = 0});
   f.Texts("panels", panels,

@@ -26,6 +26,7 @@ struct ExperimentReduction {
 struct ShownPictures {
   std::string of = "*";             // pattern of "method/variant"
   std::vector<std::string> scenes;  // patterns; empty: all
+  std::vector<int> seeds;           // empty: all
   std::vector<int> frames;          // empty: those of the experiment
   std::vector<std::string> panels;  // patterns of the pictures' titles; empty: all
   bool side_by_side = false;        // runs of a sequence below each other

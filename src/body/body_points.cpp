@@ -38,6 +38,16 @@ int FindBodyPoint(std::string_view name) {
   return found == points.end() ? -1 : static_cast<int>(found - points.begin());
 }
 
+double SizeOf(const Skeleton& skeleton) {
+  constexpr double kUsual_m = 1.6;
+  const auto y = [](const auto& points, BoneId bone) {
+    return points[static_cast<std::size_t>(bone)].y();
+  };
+  const double ankles =
+      0.5 * (y(skeleton.joints, BoneId::kLeftFoot) + y(skeleton.joints, BoneId::kRightFoot));
+  return (y(skeleton.tips, BoneId::kHead) - ankles) / kUsual_m;
+}
+
 BodyPointPositions RestPoints(const Skeleton& skeleton) {
   BodyPointPositions positions;
   for (int p = 0; p < kBodyPointCount; ++p) {

@@ -24,6 +24,9 @@ int FindBodyPoint(std::string_view name);  // −1 if there is none
 
 using BodyPointPositions = std::array<Vector3<double>, kBodyPointCount>;  // metres
 
+// By how much a skeleton is larger than one whose head's tip is 1.6 m above its ankles.
+double SizeOf(const Skeleton& skeleton);
+
 BodyPointPositions RestPoints(const Skeleton& skeleton);  // subject frame
 BodyPointPositions PosedPoints(const Skeleton& skeleton, const BoneTransforms& posed_from_rest);
 

@@ -43,7 +43,7 @@ DetectionErrors TestJointModel(const joints::JointModel& model,
   const double share = 1.0 / others.images;
   for (const joints::JointExample& example : MakeJointExamples(others, threads)) {
     const joints::DetectedPoints found =
-        detector.Detect(WholeImage(example.depth, others.camera), others.camera, kFarthest_m);
+        detector.Detect(WholeImage(example.depth, others.camera), others.camera, kFarthest_m, 1.0);
     for (int p = 0; p < kBodyPointCount; ++p) {
       if (!found[p]) continue;
       const double error_m = (*found[p] - example.points[p]).norm();

@@ -117,7 +117,7 @@ PosedExample PoseExample(const JointExampleSettings& settings, const BodyModel& 
   return posed;
 }
 
-joints::CroppedDepth Cropped(const DepthImage& depth) {
+joints::CroppedDepth Cropped(const DepthImage& depth, double size) {
   int left = depth.width(), right = -1, top = depth.height(), bottom = -1;
   for (int v = 0; v < depth.height(); ++v) {
     for (int u = 0; u < depth.width(); ++u) {
@@ -133,7 +133,7 @@ joints::CroppedDepth Cropped(const DepthImage& depth) {
   for (int v = top; v <= bottom; ++v) {
     for (int u = left; u <= right; ++u) {
       cropped.depth_mm(u - left, v - top) =
-          static_cast<std::uint16_t>(std::clamp(std::lround(1e3f * depth(u, v)), 0L, 65535L));
+          static_cast<std::uint16_t>(std::clamp(std::lround(1e3 * depth(u, v) / size), 0L, 65535L));
     }
   }
   return cropped;
@@ -285,6 +285,7 @@ std::vector<joints::JointExample> MakeJointExamples(const JointExampleSettings& 
   Progress progress("depth images", settings.images);
   for (int person = 0; person < people; ++person) {
     const BodyModel body = MakePerson(settings, population, person);
+    const double size = SizeOf(body.skeleton);
     const int count = (settings.images - person + people - 1) / people;
     std::mutex progress_mutex;
     team.For(count, [&](int begin, int end) {
@@ -297,9 +298,11 @@ std::vector<joints::JointExample> MakeJointExamples(const JointExampleSettings& 
                             fmt::format("joint example {}", number));
         const PosedExample posed = PoseExample(settings, body, random);
         const DepthImage& true_depth = rasterizer->Render(posed.vertices, body.rest.triangles);
+        BodyPointPositions points = posed.points;
+        for (Vector3d& p : points) p /= size;
         examples[static_cast<std::size_t>(number)] = {
-            Cropped(MeasureExample(settings, true_depth, random)),
-            Labels(posed, body.weights, true_depth, settings.camera), posed.points};
+            Cropped(MeasureExample(settings, true_depth, random), size),
+            Labels(posed, body.weights, true_depth, settings.camera), points};
         const std::lock_guard lock(progress_mutex);
         progress.Advance();
       }

@@ -27,14 +27,14 @@ struct JointExampleSettings {
   PopulationSettings population;
   RefinementSettings mesh;
   int weight_diffusion = 4;
-  int images = 4000;
+  int images = 12000;
   RandomPoseSettings poses;
   PinholeCamera camera;
   std::array<double, 2> distance_m{1.8, 3.6};
   std::array<double, 2> camera_height_m{0.8, 1.4};
   double off_centre_m = 0.3;
   SensorSettings sensor;
-  double ideal_share = 0.7;
+  double ideal_share = 0.5;
   int seed = 1;
 
   JointExampleSettings();

@@ -87,13 +87,34 @@ TEST(ClaimBound, FromBelowAndWithThePublishedValue) {
   EXPECT_EQ(finding.verdict, ClaimVerdict::kDoesNotHold);
   EXPECT_EQ(finding.published, "20.00 mm");
   EXPECT_EQ(finding.statement, "mean joint error: ours/* ≥ 15.00 mm");
+  EXPECT_EQ(finding.reason, "below the bound by 1.00 mm");
 }
 
 TEST(ClaimBetter, NeedsAnIntervalOnTheRightSideOfZero) {
   const ClaimTest better = Paired(ClaimRelation::kBetter);
   EXPECT_EQ(Decide(better, {Pairs(8, 0.005)}).verdict, ClaimVerdict::kHolds);
-  EXPECT_EQ(Decide(better, {Pairs(8, -0.005)}).verdict, ClaimVerdict::kDoesNotHold);
-  EXPECT_EQ(Decide(better, {Pairs(8, 0.0)}).verdict, ClaimVerdict::kDoesNotHold);
+  EXPECT_EQ(Decide(better, {Pairs(8, 0.005)}).reason, "");
+  const ClaimFinding worse = Decide(better, {Pairs(8, -0.005)});
+  EXPECT_EQ(worse.verdict, ClaimVerdict::kDoesNotHold);
+  EXPECT_EQ(worse.reason, "it is worse");
+  const ClaimFinding alike = Decide(better, {Pairs(8, 0.0)});
+  EXPECT_EQ(alike.verdict, ClaimVerdict::kDoesNotHold);
+  EXPECT_EQ(alike.reason, "the interval holds 0");
+}
+
+// Differences of three scenes are 1, 1 and 8 mm: resampled means are all positive, but of three
+// values so far apart Student's test says nothing.
+TEST(ClaimBetter, NeedsStudentsTestOverTheScenesToo) {
+  std::vector<MadeRun> runs;
+  for (const auto& [scene, worse_m] : {std::pair{"a", 0.001}, {"b", 0.001}, {"c", 0.008}}) {
+    for (int seed = 0; seed < 2; ++seed) {
+      runs.push_back({"ours", "v", scene, seed, 0.010});
+      runs.push_back({"other", "v", scene, seed, 0.010 + worse_m});
+    }
+  }
+  const ClaimFinding finding = Decide(Paired(ClaimRelation::kBetter), {Made(runs)});
+  EXPECT_EQ(finding.verdict, ClaimVerdict::kDoesNotHold);
+  EXPECT_THAT(finding.reason, HasSubstr("by Student's test over 3 scenes"));
 }
 
 TEST(ClaimBetter, IsNotDecidedByFewPairs) {
@@ -117,6 +138,8 @@ TEST(ClaimAlike, NeedsAnIntervalWithinTheMargin) {
             ClaimVerdict::kHolds);
   EXPECT_EQ(Decide(Paired(ClaimRelation::kAlike, 0.005), {Pairs(8, 0.005)}).verdict,
             ClaimVerdict::kDoesNotHold);
+  EXPECT_EQ(Decide(Paired(ClaimRelation::kAlike, 0.005), {Pairs(8, 0.005)}).reason,
+            "the interval leaves the margin");
 }
 
 TEST(ClaimPairs, PreferTheSameMethodAndThenTheSameVariant) {
@@ -141,7 +164,10 @@ TEST(Claim, HoldsIfAllTestsHold) {
   const std::vector<ReportedExperiment> made = {Made({{"ours", "v", "a", 1, 0.010}})};
   const ClaimTest untestable = Paired(ClaimRelation::kBetter);
   EXPECT_EQ(Decide({Bound(0.02), Bound(0.03)}, made).verdict, ClaimVerdict::kHolds);
-  EXPECT_EQ(Decide({Bound(0.02), Bound(0.001)}, made).verdict, ClaimVerdict::kDoesNotHold);
+  const ClaimDecision refuted = Decide({Bound(0.02), Bound(0.001)}, made);
+  EXPECT_EQ(refuted.verdict, ClaimVerdict::kDoesNotHold);
+  EXPECT_EQ(refuted.reason,
+            "mean joint error: ours/* ≤ 1.00 mm (above the bound by 9.00 mm); 1 of 2 tests hold");
   EXPECT_EQ(Decide({Bound(0.02), untestable}, made).verdict, ClaimVerdict::kCannotBeTested);
   // What is refuted stays refuted, whatever else could not be tested.
   EXPECT_EQ(Decide({untestable, Bound(0.001)}, made).verdict, ClaimVerdict::kDoesNotHold);

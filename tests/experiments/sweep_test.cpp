@@ -80,6 +80,19 @@ TEST(Sweep, ValuesWithPathsKeepTheNameAFoldersName) {
               ElementsAre(",scene.motion.file=.._a_b.json"));
 }
 
+TEST(Sweep, WhatGoesAlongChangesWithTheValueAndHasNoPartInTheName) {
+  const Json axis = {{"setting", "scene.motion.speed"},
+                     {"values", {1, 2}},
+                     {"along", {{"scene.frames", {240, 120}}}}};
+  EXPECT_THAT(Labels(OneAxis(axis)), ElementsAre(",scene.motion.speed=1", ",scene.motion.speed=2"));
+  EXPECT_EQ(PointsOf(Sweep(OneAxis(axis)))[1].scene,
+            Json({{"motion", {{"speed", 2}}}, {"frames", 120}}));
+  Json short_of_one = axis;
+  short_of_one["along"]["scene.frames"] = {240};
+  EXPECT_THAT(Refusal(OneAxis(short_of_one)),
+              HasSubstr("along: scene.frames: expected a value for each of the 2 values, got 1"));
+}
+
 TEST(Sweep, ImpossibleOnesAreRefused) {
   EXPECT_THAT(Refusal(OneAxis({{"setting", "fit.edge_px"}, {"values", {1}}})),
               HasSubstr("axes[0]: setting: expected scene.KEY"));

@@ -149,7 +149,7 @@ class NoisyJoints final : public JointFinder {
   explicit NoisyJoints(const BoneTransforms& bones, const Skeleton& skeleton)
       : truth_(PosedPoints(skeleton, bones)) {}
 
-  GivenPoints Find(const DepthFrame& frame, const PinholeCamera&) const override {
+  GivenPoints Find(const DepthFrame& frame, const PinholeCamera&, double) const override {
     GivenPoints points;
     if (frame.index < 0) return points;
     RandomStream random(7, fmt::format("noise {}", frame.index));

@@ -28,15 +28,17 @@ struct CroppedDepth {
   }
 };
 
-// A whole depth image in metres.
+// A whole depth image in metres, divided by the person's size: a person so many times larger and
+// farther away looks the same.
 struct WholeDepth {
   const DepthImage& depth;
   float max_depth_m;
+  float size;
 
   float At(int u, int v) const {
     if (!depth.Contains(u, v)) return 0.0f;
     const float z = depth(u, v);
-    return z > 0.0f && z <= max_depth_m ? z : 0.0f;  // also false of NaN
+    return z > 0.0f && z <= max_depth_m ? z / size : 0.0f;  // also false of NaN
   }
 };
 

@@ -53,6 +53,23 @@ std::optional<Vector3d> ModeOf(const std::vector<WeightedPlace>& votes,
   return best.cast<double>();
 }
 
+// From a place to where the trees lead: the mean of the last half of the steps' places.
+Vector3d Walk(const std::vector<VotingTree>& trees, int steps, const WholeDepth& view,
+              const PinholeCamera& camera, const Vector3d& start) {
+  if (steps == 0 || trees.empty()) return start;
+  Vector3f place = start.cast<float>(), sum_of_last = Vector3f::Zero();
+  const int first_counted = steps / 2;
+  for (int i = 0; i < steps; ++i) {
+    const FeaturePoint here(camera, place);
+    Vector3f offsets = Vector3f::Zero();
+    for (const VotingTree& tree : trees)
+      offsets += Eigen::Map<const Vector3f>(tree.LeafOf(view, here).front().offset_m.data());
+    place += offsets / static_cast<float>(trees.size());
+    if (i >= first_counted) sum_of_last += place;
+  }
+  return (sum_of_last / static_cast<float>(steps - first_counted)).cast<double>();
+}
+
 }  // namespace
 
 void VoteSettings::Describe(Fields& f) {
@@ -80,11 +97,16 @@ void VoteSettings::Describe(Fields& f) {
              .min = 0,
              .max = 1000,
              .origin = Origin::kGuessed});
+  f.Integer("steps", steps,
+            {.meaning = "steps of the walk from the votes' mode to a joint",
+             .min = 0,
+             .max = 1000,
+             .origin = Origin::kGuessed});
 }
 
 DetectedPoints JointDetector::Detect(const DepthImage& depth, const PinholeCamera& camera,
-                                     double max_depth_m) const {
-  const WholeDepth view{depth, static_cast<float>(max_depth_m)};
+                                     double max_depth_m, double size) const {
+  const WholeDepth view{depth, static_cast<float>(max_depth_m), static_cast<float>(size)};
   const auto least_variance = static_cast<float>(settings_.deviation_m * settings_.deviation_m);
   Votes votes;
   for (int v = 0; v < depth.height(); v += settings_.stride_px) {
@@ -106,7 +128,10 @@ DetectedPoints JointDetector::Detect(const DepthImage& depth, const PinholeCamer
     }
   }
   DetectedPoints found;
-  for (int p = 0; p < kBodyPointCount; ++p) found[p] = ModeOf(votes[p], settings_);
+  for (int p = 0; p < kBodyPointCount; ++p) {
+    found[p] = ModeOf(votes[p], settings_);
+    if (found[p]) found[p] = size * Walk(model_.walks[p], settings_.steps, view, camera, *found[p]);
+  }
   return found;
 }
 

@@ -3,8 +3,10 @@
 //
 // After Girshick, Shotton, Kohli, Criminisi & Fitzgibbon, ICCV 2011: every pixel of a grid reaches
 // a leaf of each tree and votes for the points stored there; a point is the mode of its votes,
-// found by mean shift. Departures: a leaf votes for a fixed number of points, its best ones, and a
-// vote's weight depends on its leaf's deviation and the pixel's area. Frames are independent of
+// found by mean shift. Departures: a leaf votes for a fixed number of points, its best ones; a
+// vote's weight depends on its leaf's deviation and the pixel's area; and from the mode a walk
+// leads to the point, each step the mean of what the point's walk trees say (Jung, Lee, Heo & Yun,
+// CVPR 2015, whose walks start at the previous point of the skeleton). Frames are independent of
 // each other.
 #pragma once
 
@@ -22,6 +24,7 @@ namespace vitruvia::joints {
 
 struct JointModel {
   std::vector<VotingTree> trees;
+  std::array<std::vector<VotingTree>, kBodyPointCount> walks;  // of each point; empty: none
 };
 
 struct VoteSettings {
@@ -29,6 +32,7 @@ struct VoteSettings {
   double deviation_m = 0.03;
   double bandwidth_m = 0.06;
   int shifts = 6;
+  int steps = 24;
 
   void Describe(Fields& fields);
 };
@@ -42,9 +46,9 @@ class JointDetector {
   JointDetector(const JointModel& model, const VoteSettings& settings)
       : model_(model), settings_(settings) {}
 
-  // The image must show the person alone.
-  DetectedPoints Detect(const DepthImage& depth, const PinholeCamera& camera,
-                        double max_depth_m) const;
+  // The image must show the person alone, who is of that size (SizeOf).
+  DetectedPoints Detect(const DepthImage& depth, const PinholeCamera& camera, double max_depth_m,
+                        double size) const;
 
  private:
   const JointModel& model_;

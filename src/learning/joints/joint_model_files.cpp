@@ -21,14 +21,18 @@ static_assert(sizeof(Node) == 32, "eight numbers of four bytes");
 static_assert(sizeof(Leaf) == 20 * kLeafVotes, "five numbers of four bytes for each vote");
 
 struct ModelHeader {
-  static constexpr StoredFormat kFormat{"vitruvia-joint-model", 1, 1, "learn the joints again"};
+  static constexpr StoredFormat kFormat{"vitruvia-joint-model", 2, 2, "learn the joints again"};
 
   std::vector<std::string> points;
+  int walk_trees = 0;
   std::vector<int> nodes, leaves;
   nlohmann::json learnt_from = nlohmann::json::object();
 
   void Describe(Fields& f) {
     f.Texts("points", points, {.meaning = "names of the points that are found, in order"});
+    f.Integer("walk_trees", walk_trees,
+              {.meaning = "number of walk trees of each point; the last trees in trees.bin, point "
+                          "after point"});
     f.Integers("nodes", nodes, {.meaning = "number of nodes of each tree in trees.bin"});
     f.Integers("leaves", leaves, {.meaning = "number of leaves of each tree in trees.bin"});
     f.FreeJson("learnt_from", learnt_from, {.meaning = "settings that the model was learnt with"});
@@ -117,13 +121,18 @@ void WriteJointModel(const fs::path& folder, const JointModel& model,
   ModelHeader header;
   header.points = PointNames();
   header.learnt_from = learnt_from;
+  header.walk_trees = static_cast<int>(model.walks.front().size());
   std::string bytes;
-  for (const VotingTree& tree : model.trees) {
-    header.nodes.push_back(static_cast<int>(tree.nodes.size()));
-    header.leaves.push_back(static_cast<int>(tree.leaves.size()));
-    Append(tree.nodes, bytes);
-    Append(tree.leaves, bytes);
-  }
+  const auto append = [&](const std::vector<VotingTree>& trees) {
+    for (const VotingTree& tree : trees) {
+      header.nodes.push_back(static_cast<int>(tree.nodes.size()));
+      header.leaves.push_back(static_cast<int>(tree.leaves.size()));
+      Append(tree.nodes, bytes);
+      Append(tree.leaves, bytes);
+    }
+  };
+  append(model.trees);
+  for (const auto& walk : model.walks) append(walk);
   StagedFolder staged(folder, kJointModelFile);
   WriteStored(staged.path() / kJointModelFile, header);
   WriteWholeFile(staged.path() / kTreesFile, bytes);
@@ -140,7 +149,7 @@ JointModel ReadJointModel(const fs::path& folder) {
   CheckHeader(header, header_file);
   const std::string bytes = ReadWholeFile(trees_file);
   std::string_view left = bytes;
-  JointModel model;
+  std::vector<VotingTree> trees;
   for (std::size_t t = 0; t < header.nodes.size(); ++t) {
     VotingTree tree;
     tree.nodes = Take<Node>(header.nodes[t], left, trees_file);
@@ -148,12 +157,19 @@ JointModel ReadJointModel(const fs::path& folder) {
     const std::string problem = TreeProblem(tree);
     if (!problem.empty())
       throw DataError(fmt::format("{}: tree {}: {}", trees_file.string(), t, problem));
-    model.trees.push_back(std::move(tree));
+    trees.push_back(std::move(tree));
   }
   if (!left.empty()) {
     throw DataError(fmt::format("{}: {} bytes more than {} counts", trees_file.string(),
                                 left.size(), kJointModelFile));
   }
+  JointModel model;
+  for (auto walk = model.walks.rbegin(); walk != model.walks.rend(); ++walk) {
+    walk->assign(std::make_move_iterator(trees.end() - header.walk_trees),
+                 std::make_move_iterator(trees.end()));
+    trees.resize(trees.size() - static_cast<std::size_t>(header.walk_trees));
+  }
+  model.trees = std::move(trees);
   return model;
 }
 

@@ -14,16 +14,27 @@ struct LabelledPixel {
   std::uint8_t bone;
 };
 
+// All lengths are divided by the person's size (SizeOf).
 struct JointExample {
   CroppedDepth depth;
   std::vector<LabelledPixel> pixels;
   BodyPointPositions points;  // camera frame, metres
 };
 
+struct WalkSettings {
+  int trees = 3;             // of each point
+  int starts_per_image = 3;  // of each point and tree
+  double deviation_m = 0.06;
+  TreeSettings tree{.least_pixels = 8, .candidates = 100, .split_pixels = 800, .reach_m = 0.4};
+
+  void Describe(Fields& fields);
+};
+
 struct ForestSettings {
-  int trees = 3;
-  int pixels_per_image = 250;
+  int trees = 2;
+  int pixels_per_image = 90;
   TreeSettings tree;
+  WalkSettings walks;
   int seed = 1;
 
   void Describe(Fields& fields);

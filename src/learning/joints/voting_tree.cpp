@@ -4,18 +4,77 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
+#include <type_traits>
 
 namespace vitruvia::joints {
 namespace {
 
 constexpr int kBins = 32;  // of a feature's values, between which thresholds lie
 
-using PartCounts = std::array<int, kBoneCount>;
-
 struct Split {
   DepthFeature feature;
   float threshold = 0.0f;
-  double entropy = 0.0;  // of the two sides, times their numbers of pixels
+  double disorder = 0.0;  // of the two sides together
+};
+
+Vector3d OffsetTo(int point, const TrainingPixel& pixel) {
+  return (*pixel.points)[point] - pixel.position.cast<double>();
+}
+
+// The parts that pixels show; their disorder is count · entropy, nats.
+struct PartTally {
+  std::array<int, kBoneCount> parts{};
+  int count = 0;
+
+  void Add(int part) {
+    ++parts[part];
+    ++count;
+  }
+  PartTally& operator+=(const PartTally& other) {
+    for (int part = 0; part < kBoneCount; ++part) parts[part] += other.parts[part];
+    count += other.count;
+    return *this;
+  }
+  PartTally& operator-=(const PartTally& other) {
+    for (int part = 0; part < kBoneCount; ++part) parts[part] -= other.parts[part];
+    count -= other.count;
+    return *this;
+  }
+  double Disorder() const {
+    if (count == 0) return 0.0;
+    double sum = count * std::log(static_cast<double>(count));
+    for (const int part : parts) {
+      if (part > 0) sum -= part * std::log(static_cast<double>(part));
+    }
+    return sum;
+  }
+};
+
+// Offsets to a point; their disorder is the sum of squares about their mean, m².
+struct OffsetTally {
+  Vector3d sum = Vector3d::Zero();
+  double squares = 0.0;
+  int count = 0;
+
+  void Add(const Vector3d& offset) {
+    sum += offset;
+    squares += offset.squaredNorm();
+    ++count;
+  }
+  OffsetTally& operator+=(const OffsetTally& other) {
+    sum += other.sum;
+    squares += other.squares;
+    count += other.count;
+    return *this;
+  }
+  OffsetTally& operator-=(const OffsetTally& other) {
+    sum -= other.sum;
+    squares -= other.squares;
+    count -= other.count;
+    return *this;
+  }
+  double Disorder() const { return count == 0 ? 0.0 : squares - sum.squaredNorm() / count; }
 };
 
 // Even over the disc of radius reach_m.
@@ -38,20 +97,12 @@ DepthFeature DrawFeature(double reach_m, RandomStream& random) {
   return feature;
 }
 
-// count · entropy, nats.
-double EntropyOf(const PartCounts& counts, int count) {
-  if (count == 0) return 0.0;
-  double sum = count * std::log(static_cast<double>(count));
-  for (const int part : counts) {
-    if (part > 0) sum -= part * std::log(static_cast<double>(part));
-  }
-  return sum;
-}
-
+// `aim` says what splits are to bring together: it gives a pixel's entry in the tally.
+template <class Tally, class Aim>
 class Grower {
  public:
-  Grower(const TreeSettings& settings, RandomStream& random)
-      : settings_(settings), random_(random) {}
+  Grower(const TreeSettings& settings, std::span<const int> points, Aim aim, RandomStream& random)
+      : settings_(settings), points_(points), aim_(aim), random_(random) {}
 
   VotingTree Grow(std::span<TrainingPixel> pixels) {
     tree_.nodes.emplace_back();
@@ -89,13 +140,17 @@ class Grower {
     const std::size_t count =
         std::min(pixels.size(), static_cast<std::size_t>(settings_.split_pixels));
     tried_.clear();
-    for (std::size_t i = 0; i < count; ++i) tried_.push_back(&pixels[i * pixels.size() / count]);
+    entries_.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+      tried_.push_back(&pixels[i * pixels.size() / count]);
+      entries_.push_back(aim_(*tried_.back()));
+    }
     values_.resize(count);
     Split best;
-    best.entropy = std::numeric_limits<double>::infinity();
+    best.disorder = std::numeric_limits<double>::infinity();
     for (int c = 0; c < settings_.candidates; ++c) {
       const Split split = BestThreshold(DrawFeature(settings_.reach_m, random_));
-      if (split.entropy < best.entropy) best = split;
+      if (split.disorder < best.disorder) best = split;
     }
     return best;
   }
@@ -105,62 +160,57 @@ class Grower {
       values_[i] = feature.Of(*tried_[i]->depth, tried_[i]->place);
     const auto [low, high] = std::minmax_element(values_.begin(), values_.end());
     Split best{feature};
-    best.entropy = std::numeric_limits<double>::infinity();
+    best.disorder = std::numeric_limits<double>::infinity();
     if (!(*high > *low)) return best;
     const float lowest = *low, width = (*high - lowest) / kBins;
-    std::array<PartCounts, kBins> bins{};
-    PartCounts right{};
+    std::array<Tally, kBins> bins{};
+    Tally left, right;
     for (std::size_t i = 0; i < tried_.size(); ++i) {
       const int bin = std::min(kBins - 1, static_cast<int>((values_[i] - lowest) / width));
-      ++bins[bin][tried_[i]->bone];
-      ++right[tried_[i]->bone];
+      bins[bin].Add(entries_[i]);
+      right.Add(entries_[i]);
     }
-    PartCounts left{};
-    int left_count = 0;
-    const auto count = static_cast<int>(tried_.size());
     for (int bin = 0; bin + 1 < kBins; ++bin) {
-      for (int part = 0; part < kBoneCount; ++part) {
-        left[part] += bins[bin][part];
-        right[part] -= bins[bin][part];
-        left_count += bins[bin][part];
-      }
-      if (left_count == 0 || left_count == count) continue;
-      const double entropy = EntropyOf(left, left_count) + EntropyOf(right, count - left_count);
-      if (entropy >= best.entropy) continue;
-      best.entropy = entropy;
+      left += bins[bin];
+      right -= bins[bin];
+      if (left.count == 0 || right.count == 0) continue;
+      const double disorder = left.Disorder() + right.Disorder();
+      if (disorder >= best.disorder) continue;
+      best.disorder = disorder;
       best.threshold = lowest + width * static_cast<float>(bin + 1);
     }
     return best;
   }
 
   // The points whose offsets vary least.
-  static VotingTree::Leaf LeafOf(std::span<const TrainingPixel> pixels) {
+  VotingTree::Leaf LeafOf(std::span<const TrainingPixel> pixels) const {
     const auto count = static_cast<double>(pixels.size());
-    std::array<PointVote, kBodyPointCount> votes;
-    for (int p = 0; p < kBodyPointCount; ++p) {
+    std::vector<PointVote> votes;
+    for (const int p : points_) {
       Vector3d mean = Vector3d::Zero();
-      for (const TrainingPixel& pixel : pixels)
-        mean += (*pixel.points)[p] - pixel.position.cast<double>();
+      for (const TrainingPixel& pixel : pixels) mean += OffsetTo(p, pixel);
       mean /= count;
       double square = 0.0;
-      for (const TrainingPixel& pixel : pixels)
-        square += ((*pixel.points)[p] - pixel.position.cast<double>() - mean).squaredNorm();
-      votes[p].point = p;
-      votes[p].deviation_m = static_cast<float>(std::sqrt(square / count));
-      for (int k = 0; k < 3; ++k) votes[p].offset_m[k] = static_cast<float>(mean[k]);
+      for (const TrainingPixel& pixel : pixels) square += (OffsetTo(p, pixel) - mean).squaredNorm();
+      const Vector3f offset = mean.cast<float>();
+      votes.push_back(
+          {p, static_cast<float>(std::sqrt(square / count)), {offset.x(), offset.y(), offset.z()}});
     }
     std::stable_sort(votes.begin(), votes.end(), [](const PointVote& a, const PointVote& b) {
       return a.deviation_m < b.deviation_m;
     });
     VotingTree::Leaf leaf;
-    std::copy_n(votes.begin(), kLeafVotes, leaf.begin());
+    std::copy_n(votes.begin(), std::min<std::size_t>(votes.size(), kLeafVotes), leaf.begin());
     return leaf;
   }
 
   const TreeSettings& settings_;
+  std::span<const int> points_;  // that leaves may vote for
+  Aim aim_;
   RandomStream& random_;
   VotingTree tree_;
   std::vector<const TrainingPixel*> tried_;
+  std::vector<std::invoke_result_t<Aim, const TrainingPixel&>> entries_;  // of those tried
   std::vector<float> values_;
 };
 
@@ -168,7 +218,17 @@ class Grower {
 
 VotingTree GrowTree(std::span<TrainingPixel> pixels, const TreeSettings& settings,
                     RandomStream& random) {
-  return Grower(settings, random).Grow(pixels);
+  std::array<int, kBodyPointCount> points;
+  std::iota(points.begin(), points.end(), 0);
+  const auto part = [](const TrainingPixel& pixel) { return pixel.bone; };
+  return Grower<PartTally, decltype(part)>(settings, points, part, random).Grow(pixels);
+}
+
+VotingTree GrowWalkTree(std::span<TrainingPixel> pixels, int point, const TreeSettings& settings,
+                        RandomStream& random) {
+  const auto offset = [point](const TrainingPixel& pixel) { return OffsetTo(point, pixel); };
+  return Grower<OffsetTally, decltype(offset)>(settings, std::span(&point, 1), offset, random)
+      .Grow(pixels);
 }
 
 }  // namespace vitruvia::joints

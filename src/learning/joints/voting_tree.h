@@ -1,9 +1,11 @@
-// A decision tree over depth features that maps a pixel on a body to votes for the positions of
+// A decision tree over depth features that maps a place on a body to votes for the positions of
 // joints.
 //
-// Its splits separate the body parts that pixels show (Shotton et al. 2011); its leaves hold the
-// mean offsets of the points with the least variance among the leaf's training pixels (Girshick et
-// al. 2011).
+// The splits of a voting tree separate the body parts that pixels show (Shotton et al. 2011); its
+// leaves hold the mean offsets of the points with the least variance among the leaf's training
+// pixels (Girshick et al. 2011). The splits of a walk tree reduce the variance of the offset to one
+// point, from places round that point; a walk goes from place to place by the offsets of its leaves
+// (Jung et al. 2015).
 #pragma once
 
 #include <array>
@@ -17,7 +19,8 @@
 
 namespace vitruvia::joints {
 
-// A pixel of a training image: the part that it shows, and the true points.
+// A place in a training image, on the surface or within the body: the part that it shows, and the
+// true points.
 struct TrainingPixel {
   const CroppedDepth* depth;
   FeaturePoint place;
@@ -37,8 +40,8 @@ struct PointVote {
 struct TreeSettings {
   int depth = 18;
   int least_pixels = 20;
-  int candidates = 150;
-  int split_pixels = 2000;
+  int candidates = 80;
+  int split_pixels = 1000;
   double reach_m = 0.5;
 
   void Describe(Fields& fields);
@@ -71,5 +74,10 @@ struct VotingTree {
 // the pixels (at least one).
 VotingTree GrowTree(std::span<TrainingPixel> pixels, const TreeSettings& settings,
                     RandomStream& random);
+
+// The same, but each split leaves the least sum of squares of the offsets to the point, and leaves
+// vote for it alone.
+VotingTree GrowWalkTree(std::span<TrainingPixel> pixels, int point, const TreeSettings& settings,
+                        RandomStream& random);
 
 }  // namespace vitruvia::joints

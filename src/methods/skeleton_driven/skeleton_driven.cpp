@@ -32,8 +32,9 @@ class LearntFinder final : public JointFinder {
         model_(Read(settings.detector.model)),
         detector_(model_, settings.detector.votes) {}
 
-  GivenPoints Find(const DepthFrame& frame, const PinholeCamera& camera) const override {
-    return detector_.Detect(frame.depth, camera, max_depth_m_);
+  GivenPoints Find(const DepthFrame& frame, const PinholeCamera& camera,
+                   double size) const override {
+    return detector_.Detect(frame.depth, camera, max_depth_m_, size);
   }
 
  private:
@@ -57,7 +58,7 @@ class ObservedFinder final : public JointFinder {
   explicit ObservedFinder(const Settings& settings)
       : observations_(ReadStored<JointObservations>(settings.observations)) {}
 
-  GivenPoints Find(const DepthFrame& frame, const PinholeCamera&) const override {
+  GivenPoints Find(const DepthFrame& frame, const PinholeCamera&, double) const override {
     return ObservedPoints(observations_, frame.index);
   }
 
@@ -108,7 +109,7 @@ TrackResult SkeletonDriven::TrackFrame(const DepthFrame& frame) {
   Session& s = *session_;
   CheckFrameSize(frame, s.camera);
   s.clock.Restart();
-  const GivenPoints points = joints_->Find(frame, s.camera);
+  const GivenPoints points = joints_->Find(frame, s.camera, SizeOf(s.skeleton));
   s.clock.Lap(TimedStep::kFindJoints);
   const std::optional<FoundPose> found = s.inverse_kinematics.Find(points);
   if (found) s.camera_from_rest = ToTransforms(s.skeleton, found->pose);

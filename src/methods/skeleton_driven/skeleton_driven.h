@@ -16,8 +16,9 @@ namespace vitruvia::skeleton_driven {
 class JointFinder {
  public:
   virtual ~JointFinder() = default;
-  // Camera frame, metres; none where the frame shows nothing.
-  virtual GivenPoints Find(const DepthFrame& frame, const PinholeCamera& camera) const = 0;
+  // Camera frame, metres; none where the frame shows nothing. `size` is the subject's (SizeOf).
+  virtual GivenPoints Find(const DepthFrame& frame, const PinholeCamera& camera,
+                           double size) const = 0;
 };
 
 class SkeletonDriven final : public Tracker {

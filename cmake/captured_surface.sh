@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# Makes the sequence of the captured surface (configs/imports/crane.json) below out/captured/crane:
+# meshes, a space of bodies to compare with, the rigged subject, depth. What is there stays.
+# usage: captured_surface.sh PROGRAM
+set -euo pipefail
+program=$1
+data=${VITRUVIA_DATA:-}/real_surfaces
+folder=out/captured/crane
+[ -e $folder/sequence/sequence.json ] && exit 0
+if [ -z "${VITRUVIA_DATA:-}" ] || ! [ -e "$data/crane" -o -e "$data/unpack.py" ]; then
+  echo "The captured surface is left out: expected its meshes in \$VITRUVIA_DATA/real_surfaces/crane," \
+       "or unpack.py beside them; VITRUVIA_DATA is '${VITRUVIA_DATA:-}'." >&2
+  exit 0
+fi
+mkdir -p $folder
+if [ -e "$data/crane" ]; then
+  ln -sfn "$(realpath "$data/crane")" $folder/meshes
+elif ! [ -e $folder/meshes ]; then
+  /usr/bin/python3 "$data/unpack.py" $folder/meshes.part && mv $folder/meshes.part $folder/meshes
+fi
+[ -e $folder/space ] || $program learn shape configs/learning/mannequin_small.json -o $folder/space
+[ -e $folder/subject ] ||
+  $program rig $folder/meshes --space $folder/space --height 1.81 --sex male -o $folder/subject
+$program import meshes configs/imports/crane.json -o $folder/sequence
