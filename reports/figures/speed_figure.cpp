@@ -101,13 +101,6 @@ Series Drawn(const SpeedPoint& point, std::size_t index, bool numbered) {
   return series;
 }
 
-Scale ScaleFor(std::vector<double> values) {
-  std::erase_if(values, [](double value) { return !(value > 0.0); });
-  if (values.empty()) return Scale::kLinear;
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  return *most > kWideRange * *least ? Scale::kLogarithmic : Scale::kLinear;
-}
-
 std::string CalibrationText(const ReportedExperiment& experiment) {
   std::vector<double> ms;
   for (const RunRecord* run : experiment.finished()) {
