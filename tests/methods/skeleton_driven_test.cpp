@@ -2,6 +2,7 @@
 // easy scene.
 #include "methods/skeleton_driven/skeleton_driven.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/random.h"
@@ -173,7 +174,7 @@ class SkeletonDrivenOnAnEasyScene : public ::testing::Test {
   }
 
   const BodyModel body = TinyBody(2);
-  const PinholeCamera camera;
+  const PinholeCamera camera{};
   const BoneTransforms bones = SomePose(body.skeleton);
   std::unique_ptr<SkeletonDriven> tracker;
 };
