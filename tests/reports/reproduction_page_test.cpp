@@ -35,7 +35,7 @@ class ReproductionPage : public testing::Test {
     figure.claim = "it works & holds";
     figure.experiments = {"experiment.json"};
     figure.tests = {test};
-    figure.pictures = {{"*", {}, {kPictureFrame}, {"depth", "error"}, false}};
+    figure.pictures = {{"*", {}, {}, {kPictureFrame}, {"depth", "error"}, false}};
     figure.plots = {"joint-accuracy", kJointsByScene};
     figure.tables = {{.title = "Errors", .metrics = {"joint_error_mean_m"}}};
     list_.figures = {figure};
@@ -68,6 +68,15 @@ TEST_F(ReproductionPage, ShowsCaptionPublishedOursAndVerdict) {
   EXPECT_EQ(Count(page, "<figure class=\"plot\">"), 2u);
   EXPECT_TRUE(std::filesystem::exists(root_ / "page/index/A11-1-joints-by-scene.svg"));
   EXPECT_THAT(page, Not(HasSubstr("src=\"http")));
+}
+
+TEST_F(ReproductionPage, ShowsTheChosenSeedsAndTheScaleOfErrorsWhereItShowsErrors) {
+  FigureRecords records = Records("wave");
+  EXPECT_THAT(Page(records), HasSubstr("error (mm)"));
+  records.figure.pictures.front().panels = {"depth"};
+  EXPECT_THAT(Page(records), Not(HasSubstr("error (mm)")));
+  records.figure.pictures.front().seeds = {99};
+  EXPECT_EQ(Count(Page(records), "<img src=\"data:image/png;base64,"), 0u);
 }
 
 TEST_F(ReproductionPage, SaysWhyAClaimIsNotTested) {
