@@ -16,8 +16,7 @@ namespace vitruvia {
 namespace {
 
 constexpr const char* kHistogramMetric = "joints_within_10cm";
-constexpr double kSecondRoundDash = 5.0;  // of colours that are used a second time
-constexpr double kBarGap = 0.2;           // between the bars of two scenes, of a scene's width
+constexpr double kBarGap = 0.2;  // between the bars of two scenes, of a scene's width
 
 Series NamedSeries(const std::string& name, std::size_t index) {
   Series series;

@@ -31,6 +31,9 @@ std::string FileSafe(std::string text);
 // Logarithmic where the positive ones of the values differ by more than a factor of 20.
 Scale ScaleFor(std::vector<double> values);
 
+// Of lines whose colours are used a second time.
+inline constexpr double kSecondRoundDash = 5.0;
+
 // The colour of the i-th variant, in all figures.
 Color VariantColor(std::size_t index);
 

@@ -206,8 +206,10 @@ Panel SweepPanel(const SweptSetting& setting, const std::vector<SweptVariant>& v
   panel.x_scale = axis.scale();
   panel.x_ticks = axis.Names();
   if (variants.size() == 1) panel.series = SceneLines(variants.front(), metric, axis);
-  for (std::size_t i = 0; i < variants.size(); ++i)
+  for (std::size_t i = 0; i < variants.size(); ++i) {
     panel.series.push_back(MeanLine(variants[i], VariantColor(i), metric, axis));
+    if (i >= kRunColors.size()) panel.series.back().dash = kSecondRoundDash;
+  }
   panel.y_scale = ScaleFor(ValuesIn(panel));
   if (const std::optional<double> at = axis.Position(setting.default_value))
     panel.x_references = {{"default: " + PrintedValue(setting.default_value), *at}};
