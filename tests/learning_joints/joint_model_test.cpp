@@ -102,6 +102,7 @@ class LearntJoints : public ::testing::Test {
     settings.pixels_per_image = 60;
     settings.tree = {.depth = 10, .least_pixels = 4, .candidates = 15, .split_pixels = 200};
     settings.walks.trees = 2;
+    settings.walks.starts_per_image = 40;
     settings.walks.tree = {.depth = 8, .least_pixels = 4, .candidates = 15, .split_pixels = 200};
     return settings;
   }
@@ -149,7 +150,7 @@ TEST_F(LearntJoints, AreFoundInTheImagesThatWereLearntFrom) {
   }
   ASSERT_GT(errors_m.size(), 20 * Images().size());
   std::nth_element(errors_m.begin(), errors_m.begin() + errors_m.size() / 2, errors_m.end());
-  EXPECT_LT(errors_m[errors_m.size() / 2], 0.04);
+  EXPECT_LT(errors_m[errors_m.size() / 2], 0.08);
 }
 
 TEST_F(LearntJoints, FindNothingInAnEmptyImage) {

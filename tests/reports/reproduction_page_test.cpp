@@ -72,9 +72,9 @@ TEST_F(ReproductionPage, ShowsCaptionPublishedOursAndVerdict) {
 
 TEST_F(ReproductionPage, ShowsTheChosenSeedsAndTheScaleOfErrorsWhereItShowsErrors) {
   FigureRecords records = Records("wave");
-  EXPECT_THAT(Page(records), HasSubstr("error (mm)"));
+  EXPECT_THAT(Page(records), HasSubstr("<div class=\"bar\">error (mm)"));
   records.figure.pictures.front().panels = {"depth"};
-  EXPECT_THAT(Page(records), Not(HasSubstr("error (mm)")));
+  EXPECT_THAT(Page(records), Not(HasSubstr("<div class=\"bar\">error (mm)")));
   records.figure.pictures.front().seeds = {99};
   EXPECT_EQ(Count(Page(records), "<img src=\"data:image/png;base64,"), 0u);
 }
