@@ -1,10 +1,12 @@
 #include "methods/capsule_icp/capsule.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
+#include "core/error.h"
 #include "core/random.h"
 #include "math/rigid.h"
 #include "methods/capsule_icp/capsule_samples.h"
@@ -91,6 +93,19 @@ TEST_F(FittedCapsules, AreNearTheSurface) {
   }
   EXPECT_EQ(capsules_.size(), 20u);
   EXPECT_LT(sum / static_cast<double>(body_.rest.vertices.size()), 0.012);
+}
+
+// Learnt weights may leave a bone of the trunk without a vertex of its own.
+TEST_F(FittedCapsules, ABoneWithoutSkinHasNone) {
+  const auto chest = static_cast<std::uint8_t>(BoneId::kChest);
+  BodyModel body = body_;
+  for (auto& bones : body.weights.bones)
+    std::replace(bones.begin(), bones.end(), chest, static_cast<std::uint8_t>(BoneId::kAbdomen));
+  const std::vector<Capsule> capsules = FitCapsules(body, 2);
+  EXPECT_EQ(capsules.size(), 18u);
+  for (const Capsule& capsule : capsules) EXPECT_NE(capsule.bone, chest);
+  for (auto& weights : body.weights.weights) weights.fill(0.25f);
+  EXPECT_THROW(FitCapsules(body, 2), DataError);
 }
 
 TEST_F(FittedCapsules, OnePointIsComparedWithAllAsOneByOne) {

@@ -172,14 +172,16 @@ std::vector<Capsule> FitCapsules(const BodyModel& body, int trunk_capsules) {
   const std::vector<std::vector<SkinPoint>> skin = SkinOfBones(body);
   std::vector<Capsule> capsules;
   for (int bone = 0; bone < kBoneCount; ++bone) {
-    if (skin[bone].size() < kLeastPoints) {
-      throw DataError(fmt::format(
-          "{}: bone {} carries {} vertices by more than half, and {} are needed to fit a capsule",
-          body.name, Bones()[bone].name, skin[bone].size(), kLeastPoints));
-    }
+    if (skin[bone].size() < kLeastPoints) continue;
     const std::vector<Capsule> of_bone =
         FitSideBySide(bone, body.skeleton, skin[bone], IsTrunk(bone) ? trunk_capsules : 1);
     capsules.insert(capsules.end(), of_bone.begin(), of_bone.end());
+  }
+  if (capsules.empty()) {
+    throw DataError(
+        fmt::format("{}: no bone carries {} vertices by more than half, which a capsule is fitted "
+                    "to; are the weights those of the mesh?",
+                    body.name, kLeastPoints));
   }
   return capsules;
 }

@@ -24,7 +24,8 @@ CapsuleDistance DistanceFrom(const Capsule& capsule, const Vector3d& x);
 
 // Capsules that together fit the body's surface in the rest pose, least squares over its vertices
 // by area: one for each bone, except that pelvis, abdomen and chest, which are wider than deep, get
-// `trunk_capsules` (≥ 1) side by side. DataError if a bone carries too little of the surface.
+// `trunk_capsules` (≥ 1) side by side. A bone that carries fewer than four vertices by more than
+// half has no capsule, as the chest of learnt weights may have none. DataError if no bone has one.
 std::vector<Capsule> FitCapsules(const BodyModel& body, int trunk_capsules);
 
 }  // namespace vitruvia::capsule_icp
