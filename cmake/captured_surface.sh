@@ -16,7 +16,13 @@ mkdir -p $folder
 if [ -e "$data/crane" ]; then
   ln -sfn "$(realpath "$data/crane")" $folder/meshes
 elif ! [ -e $folder/meshes ]; then
-  /usr/bin/python3 "$data/unpack.py" $folder/meshes.part && mv $folder/meshes.part $folder/meshes
+  rm -rf $folder/meshes.part
+  if ! /usr/bin/python3 "$data/unpack.py" $folder/meshes.part; then
+    echo "The captured surface is left out: $data/unpack.py failed, see above (it wants Debian's" \
+         "python3-numpy)." >&2
+    exit 0
+  fi
+  mv $folder/meshes.part $folder/meshes
 fi
 [ -e $folder/space ] || $program learn shape configs/learning/mannequin_small.json -o $folder/space
 [ -e $folder/subject ] ||
