@@ -52,13 +52,17 @@ void Set(const std::string& setting, const Json& value, SweepPoint& point) {
   overrides = Merged(overrides, Nested(keys, 1, value));
 }
 
-// With the axis' value of that index.
-SweepPoint With(SweepPoint point, const SweepAxis& axis, std::size_t index) {
-  const Json value = ValuesOf(axis)[index];
-  Set(axis.setting, value, point);
-  for (const auto& [setting, values] : axis.along.items()) Set(setting, values[index], point);
-  point.label += fmt::format(",{}={}", NameOfSetting(axis.setting), NameOfValue(value));
-  return point;
+// The point with each of the axis' values.
+std::vector<SweepPoint> Along(const SweepAxis& axis, const SweepPoint& start) {
+  std::vector<SweepPoint> points;
+  for (const Json& value : ValuesOf(axis)) {
+    const std::size_t index = points.size();
+    SweepPoint& point = points.emplace_back(start);
+    Set(axis.setting, value, point);
+    for (const auto& [setting, values] : axis.along.items()) Set(setting, values[index], point);
+    point.label += fmt::format(",{}={}", NameOfSetting(axis.setting), NameOfValue(value));
+  }
+  return points;
 }
 
 std::vector<SweepPoint> GridOf(const std::vector<SweepAxis>& axes) {
@@ -66,7 +70,7 @@ std::vector<SweepPoint> GridOf(const std::vector<SweepAxis>& axes) {
   for (const SweepAxis& axis : axes) {
     std::vector<SweepPoint> finer;
     for (const SweepPoint& point : points) {
-      for (std::size_t i = 0; i < ValuesOf(axis).size(); ++i) finer.push_back(With(point, axis, i));
+      for (SweepPoint& next : Along(axis, point)) finer.push_back(std::move(next));
     }
     points = std::move(finer);
   }
@@ -76,8 +80,7 @@ std::vector<SweepPoint> GridOf(const std::vector<SweepAxis>& axes) {
 std::vector<SweepPoint> OneAtATime(const std::vector<SweepAxis>& axes) {
   std::vector<SweepPoint> points(1);
   for (const SweepAxis& axis : axes) {
-    for (std::size_t i = 0; i < ValuesOf(axis).size(); ++i)
-      points.push_back(With(points.front(), axis, i));
+    for (SweepPoint& point : Along(axis, SweepPoint())) points.push_back(std::move(point));
   }
   return points;
 }

@@ -165,6 +165,12 @@ bool IsOverVariants(const ReproducedFigure& figure) {
                      [](const ShownTable& table) { return table.rows == TableRows::kMethods; });
 }
 
+std::vector<Figure> AllPlots(const ReportedExperiment& experiment) {
+  std::vector<Figure> all = MakeFigures(experiment);
+  for (Figure& plot : MakeContenderPlots(experiment)) all.push_back(std::move(plot));
+  return all;
+}
+
 ReportedExperiment OverVariants(ReportedExperiment experiment) {
   for (ReportedRun& run : experiment.runs) {
     if (run.record) run.record->variant.clear();
@@ -176,11 +182,9 @@ std::vector<Figure> PlotsOf(const FigureRecords& records) {
   std::vector<Figure> plots;
   if (records.figure.plots.empty()) return plots;
   for (std::size_t e = 0; e < records.experiments.size(); ++e) {
-    const ReportedExperiment experiment = IsOverVariants(records.figure)
-                                              ? OverVariants(records.experiments[e])
-                                              : records.experiments[e];
-    std::vector<Figure> all = MakeFigures(experiment);
-    for (Figure& plot : MakeContenderPlots(experiment)) all.push_back(std::move(plot));
+    std::vector<Figure> all = IsOverVariants(records.figure)
+                                  ? AllPlots(OverVariants(records.experiments[e]))
+                                  : AllPlots(records.experiments[e]);
     for (Figure& plot : all) {
       if (!IsChosen(plot, records.figure.plots)) continue;
       plot.name = fmt::format("{}-{}-{}", records.figure.id, e + 1, plot.name);

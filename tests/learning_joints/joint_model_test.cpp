@@ -39,13 +39,19 @@ TEST(DepthFeature, DoesNotDependOnTheDistance) {
   }
 }
 
-TEST(VotingTree, TellsTwoPartsApartAndVotesForWhatEachKnows) {
-  const PinholeCamera camera;
-  CroppedDepth near{Image<std::uint16_t>(camera.width, camera.height, 1900)};
-  CroppedDepth far{Image<std::uint16_t>(camera.width, camera.height, 2100)};
-  const Vector3f position(0.0f, 0.0f, 2.0f);
-  const FeaturePoint place(camera, position);
-  RandomStream random(1, "test");
+// Two images that one split tells apart, and one place in both.
+class TreeOfTwoImages : public ::testing::Test {
+ protected:
+  const PinholeCamera camera{};
+  const CroppedDepth near{Image<std::uint16_t>(camera.width, camera.height, 1900)};
+  const CroppedDepth far{Image<std::uint16_t>(camera.width, camera.height, 2100)};
+  const Vector3f position{0.0f, 0.0f, 2.0f};
+  const FeaturePoint place{camera, position};
+  const TreeSettings settings{.depth = 1, .least_pixels = 5, .candidates = 20};
+  RandomStream random{1, "test"};
+};
+
+TEST_F(TreeOfTwoImages, TellsTwoPartsApartAndVotesForWhatEachKnows) {
   // Point 3 lies alike from all pixels of the near part, point 5 from those of the far one.
   std::vector<BodyPointPositions> points(80);
   std::vector<TrainingPixel> pixels;
@@ -55,8 +61,7 @@ TEST(VotingTree, TellsTwoPartsApartAndVotesForWhatEachKnows) {
     points[i][i % 2 == 0 ? 3 : 5] = Vector3d(0.1, 0.2, 2.0);
     pixels.push_back({i % 2 == 0 ? &near : &far, place, position, i % 2, &points[i]});
   }
-  const VotingTree tree =
-      GrowTree(pixels, {.depth = 1, .least_pixels = 5, .candidates = 20}, random);
+  const VotingTree tree = GrowTree(pixels, settings, random);
   const PointVote& vote = tree.LeafOf(near, place)[0];
   EXPECT_EQ(vote.point, 3);
   EXPECT_NEAR(vote.deviation_m, 0.0f, 1e-6f);
@@ -64,13 +69,7 @@ TEST(VotingTree, TellsTwoPartsApartAndVotesForWhatEachKnows) {
   EXPECT_EQ(tree.LeafOf(far, place)[0].point, 5);
 }
 
-TEST(WalkTree, MakesTheOffsetsToItsPointAgree) {
-  const PinholeCamera camera;
-  CroppedDepth near{Image<std::uint16_t>(camera.width, camera.height, 1900)};
-  CroppedDepth far{Image<std::uint16_t>(camera.width, camera.height, 2100)};
-  const Vector3f position(0.0f, 0.0f, 2.0f);
-  const FeaturePoint place(camera, position);
-  RandomStream random(1, "test");
+TEST_F(TreeOfTwoImages, MakesTheOffsetsOfAWalkToItsPointAgree) {
   std::vector<BodyPointPositions> points(80);
   std::vector<TrainingPixel> starts;
   for (int i = 0; i < 80; ++i) {
@@ -78,8 +77,7 @@ TEST(WalkTree, MakesTheOffsetsToItsPointAgree) {
     points[i][7] = Vector3d(i % 2 == 0 ? 0.1 : -0.1, 0.0, 2.0);
     starts.push_back({i % 2 == 0 ? &near : &far, place, position, 0, &points[i]});
   }
-  const VotingTree tree =
-      GrowWalkTree(starts, 7, {.depth = 1, .least_pixels = 5, .candidates = 20}, random);
+  const VotingTree tree = GrowWalkTree(starts, 7, settings, random);
   EXPECT_EQ(tree.LeafOf(near, place)[0].point, 7);
   EXPECT_EQ(tree.LeafOf(near, place)[1].point, -1);
   EXPECT_NEAR(tree.LeafOf(near, place)[0].offset_m[0], 0.1f, 1e-6f);

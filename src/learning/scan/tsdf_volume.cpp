@@ -247,8 +247,9 @@ void TsdfVolume::IntegrateBlock(int block, const View& view) {
     for (int x = 0; x < kSide; ++x, ++cell) {
       const float u = row.u[x], v = row.v[x];
       if (!(row.z[x] > 0.0f && u >= -0.5f && v >= -0.5f && u < u_end && v < v_end)) continue;
-      const View::Pixel& pixel = view.pixels(static_cast<int>(std::floor(u + 0.5f)),
-                                             static_cast<int>(std::floor(v + 0.5f)));
+      // Not negative, so that cutting off rounds. NOLINTNEXTLINE(bugprone-incorrect-roundings)
+      const int at_u = static_cast<int>(u + 0.5f), at_v = static_cast<int>(v + 0.5f);
+      const View::Pixel& pixel = view.pixels(at_u, at_v);
       if (pixel.across == 0.0f) continue;
       const float d = (view.DepthAt(u, v, pixel) - row.z[x]) * pixel.across * per_truncation;
       const float behind = -d / pixel.behind;  // 1: the end of what counts
