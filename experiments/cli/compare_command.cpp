@@ -12,6 +12,7 @@
 #include "analysis/variant_comparison.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/message.h"
 #include "experiments/cli/experiment_folder.h"
 #include "experiments/cli/problems.h"
 
@@ -46,9 +47,9 @@ void PrintTable(const std::vector<VariantComparison>& rows) {
     metric = row.metric.key;
     const int pairs = row.comparison.difference.count;
     const std::string scenes = row.comparison.scenes > 1 ? ", " + UnitsText(row.comparison) : "";
-    fmt::print("  {:<40} {:>12}  {:>34} {:>9}  {:>3} pair{}{}  {}{}\n", row.other,
+    fmt::print("  {:<40} {:>12}  {:>34} {:>9}  {:>9}{}  {}{}\n", row.other,
                Printed(row.other_spread.mean, row.metric), DifferenceText(row), RelativeText(row),
-               pairs, pairs == 1 ? "" : "s", scenes, VerdictText(row),
+               Counted(pairs, "pair"), scenes, VerdictText(row),
                row.unpaired == 0 ? "" : fmt::format("; {} runs without a partner", row.unpaired));
   }
   fmt::print("{}\n", MethodText(rows.size()));

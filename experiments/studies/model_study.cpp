@@ -7,6 +7,7 @@
 #include "config/build_cache.h"
 #include "core/build_info.h"
 #include "core/error.h"
+#include "core/message.h"
 #include "experiments/studies/drawn_parts.h"
 #include "experiments/studies/study_plan.h"
 #include "records/surface_strips.h"
@@ -129,8 +130,8 @@ std::vector<SurfaceStrip> DrawSkeleton(const BodyModel& body, const ModelSkeleto
         {"hinges and slides, from the side", 75.0, {BonesOf(body.skeleton), hinges, slides}}}}};
 }
 
-std::string Counted(int count, const char* what) {
-  return count == 0 ? "" : fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+std::string CountedUnlessNone(int count, std::string_view noun) {
+  return count == 0 ? "" : Counted(count, noun);
 }
 
 }  // namespace
@@ -196,8 +197,8 @@ BoneTree TreeOfSkeleton(const ModelSkeleton& skeleton) {
     ++(joint.type == ModelJointType::kHinge ? count.hinges : count.slides);
   }
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    const std::string slides = Counted(counts[i].slides, "slide");
-    const std::string hinges = Counted(counts[i].hinges, "hinge");
+    const std::string slides = CountedUnlessNone(counts[i].slides, "slide");
+    const std::string hinges = CountedUnlessNone(counts[i].hinges, "hinge");
     tree.nodes[i].detail = slides + (slides.empty() || hinges.empty() ? "" : ", ") + hinges;
   }
   return tree;

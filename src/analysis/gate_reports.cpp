@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/markup.h"
+#include "core/message.h"
 #include "metrics/catalogue.h"
 
 namespace vitruvia {
@@ -122,8 +123,7 @@ std::string SpeedText(const GateOccasion& occasion, const Judgement& judgement) 
 std::string Runs(const std::vector<const GateFinding*>& findings) {
   std::set<std::string> runs;
   for (const GateFinding* finding : findings) runs.insert(finding->run);
-  return fmt::format("{} number{} of {} run{}", findings.size(), findings.size() == 1 ? "" : "s",
-                     runs.size(), runs.size() == 1 ? "" : "s");
+  return Counted(findings.size(), "number") + " of " + Counted(runs.size(), "run");
 }
 
 }  // namespace
@@ -131,8 +131,7 @@ std::string Runs(const std::vector<const GateFinding*>& findings) {
 std::string Headline(const Judgement& judgement) {
   switch (judgement.Code()) {
     case ExitCode::kFailedRun:
-      return fmt::format("failed: {} run{}", judgement.failures.size(),
-                         judgement.failures.size() == 1 ? "" : "s");
+      return "failed: " + Counted(judgement.failures.size(), "run");
     case ExitCode::kNothingMeasured:
       return judgement.findings.empty()
                  ? "nothing measured"

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "analysis/variant_comparison.h"
+#include "core/message.h"
 
 namespace vitruvia {
 namespace {
@@ -72,9 +73,8 @@ std::string IntervalText(const VariantComparison& row) {
 }
 
 std::string UnitsText(const PairedComparison& comparison) {
-  if (comparison.scenes > 1) return fmt::format("{} scenes", comparison.scenes);
-  const int units = comparison.unit_difference.count;
-  return fmt::format("{} pair{}", units, units == 1 ? "" : "s");
+  return comparison.scenes > 1 ? Counted(comparison.scenes, "scene")
+                               : Counted(comparison.unit_difference.count, "pair");
 }
 
 std::string MethodText(std::size_t count) {
@@ -83,8 +83,8 @@ std::string MethodText(std::size_t count) {
       "Differences are of pairs of the same scene and seed; intervals are {:.0f} % bootstrap "
       "intervals that draw scenes, then seeds. A difference is called one only if its interval "
       "excludes zero, Student's test over the scenes (of a single scene: over its pairs) does with "
-      "Holm's correction for {} comparison{}, and there are at least {} pairs.",
-      1e2 * confidence, count, count == 1 ? "" : "s", FewestPairs(confidence));
+      "Holm's correction for {}, and there are at least {} pairs.",
+      1e2 * confidence, Counted(count, "comparison"), FewestPairs(confidence));
 }
 
 TextTable ToText(const std::vector<VariantComparison>& rows) {
@@ -109,10 +109,9 @@ TextTable ToText(const std::vector<VariantComparison>& rows) {
     scenes = std::max(scenes, row.comparison.scenes);
   }
   NameSettingOnce(table);
-  table.notes = {
-      fmt::format("n: pairs, of {} scene{}. Bold: differences that are shown; no other one is.",
-                  scenes, scenes == 1 ? "" : "s"),
-      MethodText(rows.size())};
+  table.notes = {fmt::format("n: pairs, of {}. Bold: differences that are shown; no other one is.",
+                             Counted(scenes, "scene")),
+                 MethodText(rows.size())};
   return table;
 }
 

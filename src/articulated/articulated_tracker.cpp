@@ -73,7 +73,7 @@ struct ArticulatedTracker::Session {
   PoseFitting Better(const Observation& observation, PoseFitting fit, bool is_first);
   std::optional<PoseFitting> Search(const Observation& observation, const PoseFitting& current);
   Ending EndingOf(const PoseFitting& fit) const;
-  TrackResult CarriedOver(Ending ending);
+  TrackResult CarryOver(Ending ending);
   TrackResult Result(const PoseFitting& fit, const BoneTransforms& camera_from_rest, Ending ending);
 
   CommonSettings settings;
@@ -114,7 +114,7 @@ TrackResult ArticulatedTracker::Session::Track(const DepthFrame& frame) {
   CloudFromDepth(frame.depth, camera, settings.stride_px, static_cast<float>(settings.max_depth_m),
                  cloud);
   if (cloud.points.empty()) {
-    return CarriedOver(
+    return CarryOver(
         {Outcome::kNoData, "the frame holds no measurement; the pose is carried over"});
   }
   const Observation observation{&frame.depth, &cloud};
@@ -122,7 +122,7 @@ TrackResult ArticulatedTracker::Session::Track(const DepthFrame& frame) {
   clock.Lap(TimedStep::kObserve);
   const bool is_first = !last;
   if (is_first) FindFirstState(observation, frame.known);
-  if (!last) return CarriedOver({Outcome::kLost, start_message});
+  if (!last) return CarryOver({Outcome::kLost, start_message});
 
   const StoppingSettings& stopping = settings.stopping;
   PoseFitting fit =
@@ -222,7 +222,7 @@ ArticulatedTracker::Ending ArticulatedTracker::Session::EndingOf(const PoseFitti
 
 // Result of a frame that cannot be fitted: the last pose, or the rest pose at the camera if no
 // frame was fitted before.
-TrackResult ArticulatedTracker::Session::CarriedOver(Ending ending) {
+TrackResult ArticulatedTracker::Session::CarryOver(Ending ending) {
   loss_detector.NoteEmptyFrame();
   before_last = last;
   return Result({}, last ? WorldFromRest(body, *last) : BoneTransforms(kBoneCount),

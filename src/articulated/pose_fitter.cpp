@@ -52,7 +52,6 @@ Eigen::VectorXd PoseFitter::Solve(const BodyState& state, const BodyState& predi
 
 PoseFitting PoseFitter::Fit(const Observation& observation, const BodyState& predicted,
                             int iterations, WorkerTeam& team, Clock& clock) {
-  constexpr double kLongestStep = 0.6;  // rad and 0.6 m: linearisation holds no farther
   PoseFitting fit;
   fit.state = predicted;
   bones_.Set(fit.state);
@@ -71,8 +70,7 @@ PoseFitting PoseFitter::Fit(const Observation& observation, const BodyState& pre
     ++fit.iterations;
     fit.solved = step.allFinite();
     if (!fit.solved) break;
-    const double longest = step.cwiseAbs().maxCoeff();
-    if (longest > kLongestStep) step *= kLongestStep / longest;
+    step = NoLongerThanLinear(std::move(step));
     fit.state = Moved(std::move(fit.state), step);
     const double turned = std::max(step.segment<3>(kRotation).norm(),
                                    step.segment<kAngleCount>(kAngles).cwiseAbs().maxCoeff());

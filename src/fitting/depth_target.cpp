@@ -10,6 +10,7 @@
 
 #include "fitting/distance_sum.h"
 #include "geometry/point_cloud.h"
+#include "math/lanes.h"
 
 namespace vitruvia {
 namespace {
@@ -220,15 +221,15 @@ double DepthTarget::ImageDistance(const PosedBody& body, double far_m) {
       zbuffer_.Render(body.vertices(), body.body().triangles).pixels();
   const std::vector<float>& measured = cells_.pixels();
   const auto far = static_cast<float>(far_m);
-  constexpr std::size_t kLanes = 8;  // sums side by side
-  std::array<float, kLanes> sums{};
+  constexpr auto kSums = static_cast<std::size_t>(kLanes);  // side by side
+  std::array<float, kSums> sums{};
   // An empty cell has depth 0: it is far from a covered one, and equal to another empty one.
   const auto add = [&](std::size_t i, std::size_t lane) {
     sums[lane] += std::min(std::abs(rendered[i] - measured[i]), far);
   };
   std::size_t i = 0;
-  for (; i + kLanes <= measured.size(); i += kLanes) {
-    for (std::size_t lane = 0; lane < kLanes; ++lane) add(i + lane, lane);
+  for (; i + kSums <= measured.size(); i += kSums) {
+    for (std::size_t lane = 0; lane < kSums; ++lane) add(i + lane, lane);
   }
   for (; i < measured.size(); ++i) add(i, 0);
   return std::accumulate(sums.begin(), sums.end(), 0.0) / std::max(1, measured_cells_);

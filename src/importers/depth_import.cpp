@@ -15,6 +15,7 @@
 #include "importers/checked_sequence.h"
 #include "importers/depth_frames.h"
 #include "importers/depth_recording.h"
+#include "math/evenly_spread.h"
 #include "math/statistics.h"
 #include "sequence/sequence.h"
 
@@ -28,15 +29,6 @@ constexpr std::size_t kEveryPixel = 97;                         // looked at for
 constexpr int kBatch = 16;              // frames that are worked on together
 constexpr int kSheetFrames = 12;        // of the preview
 constexpr int kNamedUnsureFrames = 50;  // in the provenance
-
-// `count` of them evenly spread, the first and the last among them.
-std::vector<int> Spread(int all, int count) {
-  std::vector<int> chosen;
-  for (int i = 0; i < std::min(all, count); ++i)
-    chosen.push_back(all <= count ? i
-                                  : static_cast<int>(std::lround(i * (all - 1.0) / (count - 1))));
-  return chosen;
-}
 
 // The files of a recording in the order of its frames; empty where one is missing.
 struct Frames {
@@ -97,7 +89,7 @@ class FrameReader {
     const auto first = std::find_if(files.begin(), files.end(),
                                     [](const fs::path& file) { return !file.empty(); });
     if (first != files.end()) Read(*first);
-    const std::vector<int> chosen = Spread(static_cast<int>(files.size()), count);
+    const std::vector<int> chosen = EvenlySpread(static_cast<int>(files.size()), count);
     std::vector<DepthImage> images(chosen.size());
     team_.For(static_cast<int>(chosen.size()), 1, [&](int begin, int end) {
       for (int i = begin; i < end; ++i)
@@ -268,9 +260,9 @@ std::vector<double> WriteMasks(const FollowedRecording& found, const ChosenPerso
 std::vector<int> FramesToShow(int frames, const CutoutReport& report) {
   std::vector<int> shown;
   const auto unsure = static_cast<int>(report.unsure.size());
-  for (const int i : Spread(unsure, std::min(unsure, kSheetFrames / 2)))
+  for (const int i : EvenlySpread(unsure, std::min(unsure, kSheetFrames / 2)))
     shown.push_back(report.unsure[static_cast<std::size_t>(i)].frame);
-  for (const int i : Spread(frames, kSheetFrames - static_cast<int>(shown.size())))
+  for (const int i : EvenlySpread(frames, kSheetFrames - static_cast<int>(shown.size())))
     shown.push_back(i);
   std::sort(shown.begin(), shown.end());
   shown.erase(std::unique(shown.begin(), shown.end()), shown.end());

@@ -35,8 +35,8 @@ AffineMotion Blend(const SkinWeights& weights, std::size_t vertex, const BoneTra
 }
 
 // The model's weights at the points of its posed surface nearest to the mesh's vertices.
-Eigen::MatrixXf CarriedOver(const TriangleMesh& mesh, const BodyModel& model,
-                            const BoneTransforms& mesh_from_model) {
+Eigen::MatrixXf NearestWeights(const TriangleMesh& mesh, const BodyModel& model,
+                               const BoneTransforms& mesh_from_model) {
   TriangleMesh posed = model.rest;
   SkinLinear(model.rest.vertices, model.weights, mesh_from_model, posed.vertices);
   const Eigen::MatrixXf corners = Dense(model.weights, kBoneCount);
@@ -280,11 +280,11 @@ std::vector<Item> Spread(const std::vector<Item>& all, int most) {
 }
 
 // Weights from the registered body in the reference frame, and the T-pose by inverse skinning.
-void CarryOver(const std::vector<Vertices>& frames, const std::vector<Triangle>& triangles,
-               const RigSettings& settings, Rig& rig) {
+void RigFromReference(const std::vector<Vertices>& frames, const std::vector<Triangle>& triangles,
+                      const RigSettings& settings, Rig& rig) {
   const auto reference = static_cast<std::size_t>(rig.reference);
   const TriangleMesh mesh{frames[reference], triangles};
-  SkinWeights weights = Smoothed(CarriedOver(mesh, rig.model, rig.model_frames[reference]), mesh,
+  SkinWeights weights = Smoothed(NearestWeights(mesh, rig.model, rig.model_frames[reference]), mesh,
                                  settings.smoothing_steps);
   const Vertices rest = InverselySkinned(mesh.vertices, weights, rig.model_frames[reference]);
   rig.subject = Subject({rest, triangles}, std::move(weights), rig.model);
@@ -365,7 +365,7 @@ Rig RigMeshes(const std::vector<TriangleMesh>& frames, Registrar& registrar,
   const std::vector<Triangle>& triangles = frames.front().triangles;
   std::vector<Vertices> places;
   for (const TriangleMesh& frame : frames) places.push_back(frame.vertices);
-  CarryOver(places, triangles, settings, rig);
+  RigFromReference(places, triangles, settings, rig);
   if (frames.size() > 1) LearnFromFrames(places, triangles, settings, rig);
   StandOnFloor(rig.subject, rig.frames);
   const auto reference = static_cast<std::size_t>(rig.reference);

@@ -8,9 +8,6 @@
 
 namespace vitruvia {
 
-// `count` evenly spread frames, including the first and the last; all frames if there are fewer.
-std::vector<int> SpreadFrames(int frames, int count);
-
 Findings CheckCamera(const PinholeCamera& camera);
 Findings CheckSubject(const BodyModel& subject);  // files named without their folder
 

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "geometry/zbuffer.h"
+#include "math/evenly_spread.h"
 #include "math/statistics.h"
 #include "verification/checks.h"
 #include "verification/depth_changes.h"
@@ -139,7 +140,7 @@ void Try(const std::string& cause, double score, Best& best) {
 std::string Search(const SequenceReader& sequence, double as_stated,
                    const std::vector<double>& ratios) {
   const SequenceInfo& info = sequence.info();
-  const std::vector<int> chosen = SpreadFrames(info.frames, kFramesForCause);
+  const std::vector<int> chosen = EvenlySpread(info.frames, kFramesForCause);
   std::vector<Evidence> frames;
   for (const int frame : chosen) frames.push_back(EvidenceOf(sequence, frame, frame));
 

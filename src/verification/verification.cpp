@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/message.h"
+#include "math/evenly_spread.h"
 #include "verification/checks.h"
 #include "verification/limits.h"
 #include "verification/rest_mesh_check.h"
@@ -57,18 +58,9 @@ std::vector<std::string> Judge(const Findings& findings, const fs::path& shown_a
 
 }  // namespace
 
-std::vector<int> SpreadFrames(int frames, int count) {
-  std::vector<int> spread;
-  const int taken = std::min(frames, count);
-  for (int i = 0; i < taken; ++i)
-    spread.push_back(
-        taken == 1 ? 0 : static_cast<int>(static_cast<long>(i) * (frames - 1) / (taken - 1)));
-  return spread;
-}
-
 Findings FindInconsistencies(const SequenceReader& sequence, FrameSelection selection) {
   const std::vector<int> frames =
-      SpreadFrames(sequence.info().frames, CountOf(selection, sequence.info().frames));
+      EvenlySpread(sequence.info().frames, CountOf(selection, sequence.info().frames));
   const std::function<Findings()> checks[] = {
       [&] { return CheckCamera(sequence.info().camera); },
       [&] { return CheckSubjectOf(sequence); },

@@ -8,11 +8,10 @@
 #include "math/rigid.h"
 #include "math/rotation.h"
 #include "synth/render/depth_renderer.h"
+#include "synth/scene/stage.h"
 
 namespace vitruvia {
 namespace {
-
-constexpr double kNearM = 0.2, kFarM = 12.0;  // of the renderer; all bodies must stay between them
 
 // Periods of the sway relative to the first one: so that no two ever meet again.
 constexpr double kSidewaysPeriod = 1.618, kLeftArmPeriod = 0.786, kRightArmPeriod = 1.272;
@@ -50,17 +49,6 @@ JointPose StandingPose(const Skeleton& skeleton, const StanceSettings& stance, d
 
 void Quantize(DepthImage& depth, double unit_m) {
   for (float& z : depth.pixels()) z = static_cast<float>(std::round(z / unit_m) * unit_m);
-}
-
-// Checks the renderer's depth range, beyond which the surface would be clipped silently.
-void RequireInRange(const std::vector<Vector3f>& vertices_in_camera, int frame) {
-  for (const Vector3f& p : vertices_in_camera) {
-    if (p.z() >= kNearM && p.z() <= kFarM) continue;
-    throw ConfigError(fmt::format(
-        "path: in frame {} a part of the body is {:.2f} m in front of the camera; expected {:g} … "
-        "{:g} m",
-        frame, p.z(), kNearM, kFarM));
-  }
 }
 
 }  // namespace
@@ -102,7 +90,7 @@ ScanRecorder::ScanRecorder(const ScanSceneSettings& settings, BodyModel person)
     : settings_(settings),
       body_(std::move(person)),
       jitter_(std::make_unique<Jitter>(settings.seed)),
-      renderer_(std::make_unique<DepthRenderer>(settings.camera, kNearM, kFarM)) {
+      renderer_(std::make_unique<DepthRenderer>(settings.camera, kNearest_m, kFarthest_m)) {
   BoneTransforms bones;
   surface_ = {Stand(0.0, bones), body_.rest.triangles};
   chest_at_start_ = bones[static_cast<std::size_t>(BoneId::kChest)];
@@ -161,7 +149,7 @@ ScanFrame ScanRecorder::Render(int frame) {
   };
   add(Vector3d::Zero());
   for (const BystanderSettings& b : settings_.bystanders) add({b.place_m[0], 0.0, b.place_m[1]});
-  RequireInRange(vertices, frame);
+  RequireInRange(vertices, frame, "path");
 
   const DepthImage true_depth = renderer_->Render(vertices, triangles);
   RandomStream noise(static_cast<std::uint64_t>(settings_.seed), fmt::format("sensor/{}", frame));

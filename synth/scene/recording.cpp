@@ -120,17 +120,6 @@ SequenceInfo Info(const SceneSettings& settings, const BodyModel& truth, const B
   return info;
 }
 
-// Checks the renderer's depth range, beyond which the surface would be clipped silently.
-void RequireInRange(const std::vector<Vector3f>& vertices_in_camera, int frame) {
-  for (const Vector3f& p : vertices_in_camera) {
-    if (p.z() >= kNearest_m && p.z() <= kFarthest_m) continue;
-    throw ConfigError(fmt::format(
-        "view.position_m: in frame {} a part of the body is {:.2f} m in front of the camera; "
-        "expected {:g} … {:g} m",
-        frame, p.z(), kNearest_m, kFarthest_m));
-  }
-}
-
 // What the other cameras measure. They stand elsewhere, so each has a stage of its own.
 class OtherCameras {
  public:
@@ -190,7 +179,7 @@ void RecordSequence(const SceneSettings& settings, const BodyModel& truth, const
     for (int frame = 0; frame < settings.frames; ++frame) {
       const double time_s = frame / settings.fps;
       const TruePose posed = stage.PosedAt(time_s);
-      RequireInRange(posed.vertices, frame);
+      RequireInRange(posed.vertices, frame, "view.position_m");
       watch.Look(posed.vertices, frame);
       misfit.Add(posed);
       const DepthImage true_depth = stage.Rendered(time_s, posed);

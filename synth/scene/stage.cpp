@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/error.h"
 #include "core/random.h"
 #include "math/rigid.h"
 
@@ -21,6 +22,17 @@ void PutBehind(const DepthImage& room, DepthImage& depth) {
 }
 
 }  // namespace
+
+void RequireInRange(const std::vector<Vector3f>& vertices_in_camera, int frame,
+                    const char* setting) {
+  for (const Vector3f& p : vertices_in_camera) {
+    if (p.z() >= kNearest_m && p.z() <= kFarthest_m) continue;
+    throw ConfigError(fmt::format(
+        "{}: in frame {} a part of the body is {:.2f} m in front of the camera; expected {:g} … "
+        "{:g} m",
+        setting, frame, p.z(), kNearest_m, kFarthest_m));
+  }
+}
 
 TruePose Pose(const BodyModel& body, const MotionSample& sample, Skinning skinning,
               const Rigidd& camera_from_subject) {

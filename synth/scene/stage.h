@@ -13,6 +13,11 @@ namespace vitruvia {
 // Clipping planes of the renderer; the body must stay between them.
 inline constexpr double kNearest_m = 0.2, kFarthest_m = 12.0;
 
+// Throws ConfigError, which names the setting, if a vertex is outside of the clipping planes: its
+// surface would be clipped silently.
+void RequireInRange(const std::vector<Vector3f>& vertices_in_camera, int frame,
+                    const char* setting);
+
 // The body's surface and joints in the camera frame, and the transforms of its bones.
 struct TruePose {
   std::vector<Vector3f> vertices;

@@ -12,10 +12,11 @@
 #include <Eigen/Core>
 
 #include "learning/skinning/examples.h"
+#include "math/lanes.h"
 
 namespace vitruvia::skinning {
 
-inline constexpr int kLanes = 8;  // rows are padded with zeros to multiples of so many floats
+// Rows are padded with zeros to multiples of kLanes floats.
 using Lanes = Eigen::Array<float, kLanes, 1>;
 
 // A point of the rest pose in homogeneous coordinates (x, y, z, 1).

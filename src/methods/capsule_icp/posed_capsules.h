@@ -1,6 +1,7 @@
 // The capsules of a body in a pose, in a layout for comparing a point with eight of them at once.
 #pragma once
 
+#include "math/lanes.h"
 #include "methods/capsule_icp/capsule.h"
 
 namespace vitruvia::capsule_icp {
@@ -23,7 +24,6 @@ class PosedCapsules {
   Capsule InCamera(int k) const;
 
  private:
-  static constexpr int kLanes = 8;  // floats in a vector register
   using Lanes = Eigen::Array<float, kLanes, 1>;
 
   // Eight capsules in the camera frame: start, axis, length, first radius, decrease of the radius

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/lanes.h"
+
 namespace vitruvia::gmm_articulated {
 namespace {
 
-constexpr int kLanes = 8;
 using Lanes = Eigen::Array<float, kLanes, 1>;
 
 // Calls use(kernel, at, count) for the points near a place, a register at a time: kernel holds
