@@ -114,8 +114,7 @@ TrackResult ArticulatedTracker::Session::Track(const DepthFrame& frame) {
   CloudFromDepth(frame.depth, camera, settings.stride_px, static_cast<float>(settings.max_depth_m),
                  cloud);
   if (cloud.points.empty()) {
-    return CarryOver(
-        {Outcome::kNoData, "the frame holds no measurement; the pose is carried over"});
+    return CarryOver({Outcome::kNoData, kNoMeasurement});
   }
   const Observation observation{&frame.depth, &cloud};
   term->Observe(observation);
@@ -206,15 +205,12 @@ std::optional<PoseFitting> ArticulatedTracker::Session::Search(const Observation
 }
 
 ArticulatedTracker::Ending ArticulatedTracker::Session::EndingOf(const PoseFitting& fit) const {
-  const double presence = fit.agreement.presence();
   if (!fit.solved) {
     return {Outcome::kLost,
             "the normal equations have no solution; the pose is the one before the step"};
   }
-  if (presence < settings.lost_below || loss_detector.is_lost()) {
-    return {Outcome::kLost,
-            fmt::format("the frame confirms {:.0f} % of the model, usually {:.0f} %",
-                        100.0 * presence, 100.0 * loss_detector.usual().presence())};
+  if (fit.agreement.presence() < settings.lost_below || loss_detector.is_lost()) {
+    return {Outcome::kLost, loss_detector.MessageOf(fit.agreement)};
   }
   if (fit.converged) return {Outcome::kConverged, ""};
   return {Outcome::kIterationLimit, fmt::format("stopped after {} iterations", fit.iterations)};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracking/frame_checks.h"
+
 namespace vitruvia::articulated {
 
 void StoppingSettings::Describe(Fields& f) {
@@ -100,13 +102,7 @@ void CommonSettings::Describe(Fields& f) {
              .min = 1,
              .max = 16,
              .origin = Origin::kGuessed});
-  f.Number("max_depth_m", max_depth_m,
-           {.meaning = "pixels with a larger depth are not measurements of the subject",
-            .unit = "m",
-            .min = 0.1,
-            .max = 100,
-            .origin = Origin::kGuessed,
-            .source = "range of the depth cameras in use"});
+  DescribeMaxDepth(f, max_depth_m);
   f.Section("stopping", stopping, {.meaning = "stopping rule of the iterations"});
   f.Section("prediction", prediction, {.meaning = "prediction of a frame's pose"});
   f.Section("data", data, {.meaning = "weight of a frame's data relative to the prediction"});
@@ -128,12 +124,7 @@ void CommonSettings::Describe(Fields& f) {
     f.Section("start_search", start_search, {.meaning = "search for the first pose"});
   }
   f.Section("recovery", recovery, {.meaning = "detection of a lost subject and relocalisation"});
-  f.Number("lost_below", lost_below,
-           {.meaning = "a frame is lost when it confirms a smaller share of the model's visible "
-                       "vertices, of those that the frame can confirm or contradict",
-            .min = 0,
-            .max = 1,
-            .origin = Origin::kGuessed});
+  DescribeLostBelow(f, lost_below);
   f.Integer("threads", threads,
             {.meaning = "number of threads; the result is the same for any",
              .min = 1,

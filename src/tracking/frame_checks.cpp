@@ -10,4 +10,24 @@ void CheckFrameSize(const DepthFrame& frame, const PinholeCamera& camera) {
           frame.depth.height(), camera.width, camera.height);
 }
 
+void DescribeMaxDepth(Fields& f, double& max_depth_m) {
+  f.Number("max_depth_m", max_depth_m,
+           {.meaning = "pixels with a larger depth are not measurements of the subject",
+            .unit = "m",
+            .min = 0.1,
+            .max = 100,
+            .origin = Origin::kGuessed,
+            .source = "range of the depth cameras in use"});
+}
+
+void DescribeLostBelow(Fields& f, double& lost_below) {
+  f.Number("lost_below", lost_below,
+           {.meaning = "a frame is lost when it confirms a smaller share of the model's visible "
+                       "vertices, of those that the frame can confirm or contradict",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kGuessed,
+            .source = "the papers are silent"});
+}
+
 }  // namespace vitruvia

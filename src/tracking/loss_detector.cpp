@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 namespace vitruvia {
 
 // Low: too little of the model is confirmed, or much of the cloud is unexplained and the model is
@@ -58,6 +60,11 @@ void LossDetector::NoteFound(const Agreement& agreement) {
 
 bool IsClearlyBetter(const Agreement& found, const Agreement& current, double margin) {
   return found.score() > current.score() + margin && found.confirmed >= current.confirmed;
+}
+
+std::string LossDetector::MessageOf(const Agreement& agreement) const {
+  return fmt::format("the frame confirms {:.0f} % of the model, usually {:.0f} %",
+                     100.0 * agreement.presence(), 100.0 * usual_.presence());
 }
 
 }  // namespace vitruvia

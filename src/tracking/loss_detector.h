@@ -1,6 +1,8 @@
 // Detects that a subject is lost, frame by frame.
 #pragma once
 
+#include <string>
+
 #include "tracking/agreement.h"
 #include "tracking/relocalization_settings.h"
 
@@ -27,6 +29,8 @@ class LossDetector {
 
   bool is_lost() const { return num_low_ > 0 || is_doubtful_; }
   const Agreement& usual() const { return usual_; }
+  // Why a frame of this agreement is lost.
+  std::string MessageOf(const Agreement& agreement) const;
 
  private:
   bool IsBelow(double threshold, const Agreement& agreement) const;

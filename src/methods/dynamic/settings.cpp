@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "tracking/frame_checks.h"
+
 namespace vitruvia::dynamic {
 
 void AssociationSettings::Describe(Fields& f) {
@@ -203,13 +205,7 @@ void Settings::Describe(Fields& f) {
   }
   f.Section("uncertainty", uncertainty,
             {.meaning = "covariances of the joints, from the normal equations"});
-  f.Number("max_depth_m", max_depth_m,
-           {.meaning = "pixels with a larger depth are not measurements of the subject",
-            .unit = "m",
-            .min = 0.1,
-            .max = 100,
-            .origin = Origin::kGuessed,
-            .source = "range of the depth cameras in use"});
+  DescribeMaxDepth(f, max_depth_m);
   f.Number("lost_below", lost_below,
            {.meaning = "a frame is lost, and pose and shape are kept, when less than this share of "
                        "the points was paired with a vertex even in its best iteration",

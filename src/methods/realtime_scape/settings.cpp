@@ -1,5 +1,7 @@
 #include "methods/realtime_scape/settings.h"
 
+#include "tracking/frame_checks.h"
+
 namespace vitruvia::realtime_scape {
 
 void CloudSettings::Describe(Fields& f) {
@@ -11,13 +13,7 @@ void CloudSettings::Describe(Fields& f) {
        .max = 16,
        .origin = Origin::kPaper,
        .source = "paper A, sec. 6.2: half resolution"});
-  f.Number("max_depth_m", max_depth_m,
-           {.meaning = "pixels with a larger depth are not measurements of the subject",
-            .unit = "m",
-            .min = 0.1,
-            .max = 100,
-            .origin = Origin::kGuessed,
-            .source = "range of the depth cameras in use"});
+  DescribeMaxDepth(f, max_depth_m);
 }
 
 void MotionSettings::Describe(Fields& f) {
@@ -211,15 +207,7 @@ void Settings::Describe(Fields& f) {
       {.meaning = "detection of a lost subject by the areas in which model and frame disagree"});
   f.Section("uncertainty", uncertainty,
             {.meaning = "covariances of the joints, from the normal equations"});
-  f.Number(
-      "lost_below", lost_below,
-      {.meaning =
-           "a frame is lost when it confirms a smaller share of the model's visible vertices, of "
-           "those that the frame can confirm or contradict",
-       .min = 0,
-       .max = 1,
-       .origin = Origin::kGuessed,
-       .source = "paper A is silent"});
+  DescribeLostBelow(f, lost_below);
 }
 
 void Settings::DescribeEnergy(Fields& f) {

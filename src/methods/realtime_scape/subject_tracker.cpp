@@ -33,8 +33,7 @@ TrackResult SubjectTracker::TrackFrame(const DepthFrame& frame) {
   clock_.Restart();
   const Observation& observation = observer_.Observe(frame.depth);
   if (observation.cloud.points.empty()) {
-    return CarryOver(
-        {Outcome::kNoData, "the frame holds no measurement; the pose is carried over"});
+    return CarryOver({Outcome::kNoData, kNoMeasurement});
   }
   const bool is_first = !history_;
   if (is_first) history_ = FirstPose(observation, frame.known);
@@ -145,11 +144,8 @@ TrackResult SubjectTracker::CarryOver(Ending ending) {
 }
 
 SubjectTracker::Ending SubjectTracker::EndingOf(const FitSummary& fit) const {
-  const double presence = fit.agreement.presence();
-  if (presence < settings_.lost_below || loss_detector_.is_lost()) {
-    return {Outcome::kLost,
-            fmt::format("the frame confirms {:.0f} % of the model, usually {:.0f} %",
-                        100.0 * presence, 100.0 * loss_detector_.usual().presence())};
+  if (fit.agreement.presence() < settings_.lost_below || loss_detector_.is_lost()) {
+    return {Outcome::kLost, loss_detector_.MessageOf(fit.agreement)};
   }
   if (watch_ && watch_->verdict.is_lost()) {
     return {Outcome::kLost, watch_->verdict.message()};

@@ -85,7 +85,7 @@ TrackResult ScapeRegression::TrackFrame(const DepthFrame& frame) {
   const bool is_first = !s.last;
   if (cloud.points.empty()) {
     result.outcome = Outcome::kNoData;
-    result.message = "the frame holds no measurement; the pose is carried over";
+    result.message = kNoMeasurement;
   } else if (is_first) {
     s.last = FirstPose(frame, cloud);
   }

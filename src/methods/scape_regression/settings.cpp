@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "tracking/frame_checks.h"
+
 namespace vitruvia::scape_regression {
 
 void DepthTermSettings::Describe(Fields& f) {
@@ -125,12 +127,7 @@ void Settings::Describe(Fields& f) {
   if (f.Applies(start == Start::kSearch)) {
     f.Section("start_search", start_search, {.meaning = "search for the first pose"});
   }
-  f.Number("max_depth_m", max_depth_m,
-           {.meaning = "pixels with a larger depth are not measurements of the subject",
-            .unit = "m",
-            .min = 0.1,
-            .max = 100.0,
-            .origin = Origin::kGuessed});
+  DescribeMaxDepth(f, max_depth_m);
   f.Number("lost_below", lost_below,
            {.meaning = "a frame is lost if a smaller share of the visible vertices lies within the "
                        "last kernel's scale of the observed depth",
