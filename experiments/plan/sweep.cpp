@@ -4,6 +4,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "core/message.h"
+
 namespace vitruvia {
 namespace {
 
@@ -107,14 +109,19 @@ std::string ValuesProblem(const Json& values) {
   return "";
 }
 
+std::size_t CountOf(const SweepAxis& axis) {
+  return axis.steps == 0 ? axis.values.size() : static_cast<std::size_t>(axis.steps);
+}
+
 std::string AlongProblem(const SweepAxis& axis) {
   if (!axis.along.is_object()) return "expected settings and lists of values";
   for (const auto& [setting, values] : axis.along.items()) {
     if (std::string problem = SettingProblem(setting); !problem.empty()) return problem;
     if (std::string problem = ValuesProblem(values); !problem.empty()) return problem;
-    if (values.size() != axis.values.size())
-      return fmt::format("{}: expected a value for each of the {} values, got {}", setting,
-                         axis.values.size(), values.size());
+    if (setting == axis.setting) return setting + ": the axis itself sets it";
+    if (values.size() != CountOf(axis))
+      return fmt::format("{}: expected a value for each of the {} of the axis, got {}", setting,
+                         Counted(CountOf(axis), "value"), values.size());
   }
   return "";
 }
@@ -168,8 +175,7 @@ std::string SweepSettings::Problem() const {
     }
   }
   double points = 1.0;
-  for (const SweepAxis& axis : axes)
-    points *= std::max(static_cast<double>(axis.values.size()), 1.0 * axis.steps);
+  for (const SweepAxis& axis : axes) points *= static_cast<double>(CountOf(axis));
   if (design == SweepDesign::kGrid && points > kMostPoints)
     return fmt::format("axes: the grid has {:g} points, expected at most {:g}", points,
                        kMostPoints);

@@ -89,8 +89,24 @@ TEST(Sweep, WhatGoesAlongChangesWithTheValueAndHasNoPartInTheName) {
             Json({{"motion", {{"speed", 2}}}, {"frames", 120}}));
   Json short_of_one = axis;
   short_of_one["along"]["scene.frames"] = {240};
-  EXPECT_THAT(Refusal(OneAxis(short_of_one)),
-              HasSubstr("along: scene.frames: expected a value for each of the 2 values, got 1"));
+  EXPECT_THAT(
+      Refusal(OneAxis(short_of_one)),
+      HasSubstr(
+          "along: scene.frames: expected a value for each of the 2 values of the axis, got 1"));
+  Json of_itself = axis;
+  of_itself["along"] = {{"scene.motion.speed", {3, 4}}};
+  EXPECT_THAT(Refusal(OneAxis(of_itself)),
+              HasSubstr("scene.motion.speed: the axis itself sets it"));
+}
+
+TEST(Sweep, SettingsGoAlongWithARange) {
+  const Json axis = {{"setting", "scene.motion.speed"},
+                     {"from", 1},
+                     {"to", 2},
+                     {"steps", 2},
+                     {"along", {{"scene.frames", {240, 120}}}}};
+  EXPECT_EQ(PointsOf(Sweep(OneAxis(axis)))[1].scene,
+            Json({{"motion", {{"speed", 2}}}, {"frames", 120}}));
 }
 
 TEST(Sweep, ImpossibleOnesAreRefused) {
