@@ -26,8 +26,10 @@ bool IsLearnt(const fs::path& folder, const Json& settings) {
 }
 
 void Print(const DetectionErrors& errors) {
-  fmt::print("{} images of other people in other poses\n{:<16} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
-             errors.images, "point", "found %", "mean mm", "2 cm %", "5 cm %", "10 cm %");
+  fmt::print(
+      "{} images of other people in other poses, each scaled to 1.6 m from ankle to crown\n"
+      "{:<16} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
+      errors.images, "point", "found %", "mean mm", "2 cm %", "5 cm %", "10 cm %");
   const auto print = [](const std::string& name, double found, double mean_m, double within_2_cm,
                         double within_5_cm, double within_10_cm) {
     fmt::print("{:<16} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.1f}\n", name, 100.0 * found,

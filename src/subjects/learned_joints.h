@@ -20,7 +20,8 @@ struct JointLearningSettings {
 
 joints::JointModel LearnJointModel(const JointLearningSettings& settings, int threads);
 
-// Errors of a detector on test images: other people of the same distribution, in other poses.
+// Errors of a detector on test images: other people of the same distribution, in other poses, with
+// lengths divided by the person's size (SizeOf).
 struct DetectionErrors {
   int images = 0;
   std::array<double, kBodyPointCount> mean_m{};  // over the images in which the point is found
