@@ -60,7 +60,7 @@ NumberedName Numbered(const fs::path& file) {
 }
 
 // What counts frames: numbers in names or time stamps, one for each file.
-struct Counted {
+struct NumberedFiles {
   std::vector<fs::path> files;
   std::vector<double> positions;  // empty: nothing counts them
 };
@@ -88,39 +88,39 @@ std::vector<fs::path> FilesIn(const fs::path& folder) {
   return files;
 }
 
-Counted CountedIn(const fs::path& folder) {
-  Counted counted{FilesIn(folder), {}};
-  const std::string prefix = Numbered(counted.files.front()).prefix;
-  for (const fs::path& file : counted.files) {
+NumberedFiles NumberedFilesIn(const fs::path& folder) {
+  NumberedFiles numbered{FilesIn(folder), {}};
+  const std::string prefix = Numbered(numbered.files.front()).prefix;
+  for (const fs::path& file : numbered.files) {
     const NumberedName name = Numbered(file);
-    if (!name.number || name.prefix != prefix) return {counted.files, {}};
-    counted.positions.push_back(static_cast<double>(*name.number));
+    if (!name.number || name.prefix != prefix) return {numbered.files, {}};
+    numbered.positions.push_back(static_cast<double>(*name.number));
   }
-  return counted;
+  return numbered;
 }
 
-Counted CountedOf(const fs::path& list) {
+NumberedFiles NumberedFilesOf(const fs::path& list) {
   const std::string content = ReadWholeFile(list);
   TextLines lines(content, list.string());
-  Counted counted;
+  NumberedFiles numbered;
   while (lines.Next()) {
     const std::vector<std::string_view> words = lines.Words();
     if (words.empty() || words[0].starts_with('#')) continue;
     const auto time_s = ParseNumber(words[0]);
     if (words.size() != 2 || !time_s || !std::isfinite(*time_s))
       lines.Fail(fmt::format("expected \"seconds path\", got \"{}\"", lines.text().substr(0, 80)));
-    if (!counted.positions.empty() && *time_s <= counted.positions.back())
+    if (!numbered.positions.empty() && *time_s <= numbered.positions.back())
       lines.Fail(fmt::format("time stamp {} does not come after {} of the frame before it",
-                             words[0], counted.positions.back()));
+                             words[0], numbered.positions.back()));
     const fs::path file = list.parent_path() / words[1];
     if (!fs::is_regular_file(file))
       lines.Fail(fmt::format("expected a file at {}, there is none", file.string()));
-    counted.files.push_back(file);
-    counted.positions.push_back(*time_s);
+    numbered.files.push_back(file);
+    numbered.positions.push_back(*time_s);
   }
-  if (counted.files.empty())
+  if (numbered.files.empty())
     throw DataError(fmt::format("{}: expected lines \"seconds path\", found none", list.string()));
-  return counted;
+  return numbered;
 }
 
 // The usual step from one frame to the next; 0 where nothing tells.
@@ -131,22 +131,22 @@ double UsualStep(const std::vector<double>& positions) {
   return steps.empty() ? 0.0 : Quantile(steps, 0.5);
 }
 
-DepthRecording WithGaps(const Counted& counted) {
-  const double step = UsualStep(counted.positions);
+DepthRecording WithGaps(const NumberedFiles& numbered) {
+  const double step = UsualStep(numbered.positions);
   DepthRecording recording;
-  for (std::size_t i = 0; i < counted.files.size(); ++i) {
+  for (std::size_t i = 0; i < numbered.files.size(); ++i) {
     if (i > 0 && step > 0.0) {
       const double missing =
-          std::round((counted.positions[i] - counted.positions[i - 1]) / step) - 1.0;
+          std::round((numbered.positions[i] - numbered.positions[i - 1]) / step) - 1.0;
       if (missing > 0.0 && missing < kMostMissing) {
         recording.gaps.push_back(fmt::format("{} between {} and {}", static_cast<int>(missing),
-                                             counted.files[i - 1].filename().string(),
-                                             counted.files[i].filename().string()));
+                                             numbered.files[i - 1].filename().string(),
+                                             numbered.files[i].filename().string()));
         recording.missing += static_cast<int>(missing);
         recording.frames.resize(recording.frames.size() + static_cast<std::size_t>(missing));
       }
     }
-    recording.frames.push_back(counted.files[i]);
+    recording.frames.push_back(numbered.files[i]);
   }
   return recording;
 }
@@ -170,18 +170,18 @@ std::string Unlisted(std::vector<fs::path> listed, const fs::path& list) {
 bool IsPcdFile(const fs::path& file) { return file.extension() == ".pcd"; }
 
 DepthRecording FindRecordedFrames(const fs::path& images) {
-  if (fs::is_directory(images)) return WithGaps(CountedIn(images));
+  if (fs::is_directory(images)) return WithGaps(NumberedFilesIn(images));
   if (!fs::is_regular_file(images)) {
     throw DataError(fmt::format(
         "{}: expected a folder of depth images, a list of them or one of them; there is nothing",
         images.string()));
   }
   if (IsImageFile(images) || IsPcdFile(images)) return WithGaps({{images}, {}});
-  const Counted counted = CountedOf(images);
-  DepthRecording recording = WithGaps(counted);
-  if (const std::string unlisted = Unlisted(counted.files, images); !unlisted.empty())
+  const NumberedFiles numbered = NumberedFilesOf(images);
+  DepthRecording recording = WithGaps(numbered);
+  if (const std::string unlisted = Unlisted(numbered.files, images); !unlisted.empty())
     recording.gaps.push_back(unlisted);
-  const double step_s = UsualStep(counted.positions);
+  const double step_s = UsualStep(numbered.positions);
   if (step_s > 0.0) recording.fps = 1.0 / step_s;
   return recording;
 }
