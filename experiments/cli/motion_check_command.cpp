@@ -141,8 +141,7 @@ StickFigureRow BodyRow(const Skeleton& skeleton, const Motion& motion) {
 StickFigureRow FileRow(const MocapPerformer& performer) {
   StickFigureRow row{
       "the file's joints (left red, right blue, those that are not taken grey): from the front, "
-      "from "
-      "the side",
+      "from the side",
       {}};
   const auto last = static_cast<double>(performer.clip.frames.size() - 1);
   for (const double share : SharesShown()) {

@@ -105,9 +105,8 @@ void AddSubjectCommand(CLI::App& app) {
       "The body is the most probable one of the space with these attributes. Where the space has "
       "nobody of that height, its nearest body is scaled: learn a space with children for children "
       "(configs/learning/makehuman_all_ages.json). With --sequence the body is put onto frames of "
-      "the "
-      "sequence, which may show any pose, one shape for all of them; registration.png shows how "
-      "well.");
+      "the sequence, which may show any pose, one shape for all of them; registration.png shows "
+      "how well.");
   command->callback([a] { a->sequence.empty() ? MakeSizedSubject(*a) : MakeSeenSubject(*a); });
 }
 

@@ -49,8 +49,7 @@ Figure AccuracyOf(const std::vector<Contender>& contenders) {
   figure.title = "Joint accuracy over all scenes";
   figure.caption =
       "Share of joints within the threshold, averaged over the runs of each contender: as they "
-      "are, "
-      "and after the mean offset of each joint over a run is taken off.";
+      "are, and after the mean offset of each joint over a run is taken off.";
   figure.columns = 2;
   for (const auto& [joints, title] : {std::pair{"all", "as they are"},
                                       std::pair{"less_offset", "less each joint’s mean offset"}}) {

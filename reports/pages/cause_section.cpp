@@ -95,8 +95,8 @@ std::string CauseSection(const ReportedExperiment& experiment, const std::vector
   if (runs.empty()) return "";
   std::string html =
       "<section id=\"causes\"><h2>Causes of errors</h2>\n<p>How much of a run’s joint error, "
-      "summed "
-      "over joints and frames, arose under each circumstance; small: joints that are at most 3 cm "
+      "summed over joints and frames, arose under each circumstance; small: joints that are at "
+      "most 3 cm "
       "off.</p>\n";
   if (std::ranges::any_of(runs, IsExplained)) html += ShareTable(runs);
   html += "<h3>Worst events</h3>\n";

@@ -101,8 +101,7 @@ std::string ComparisonSection(const ReportedExperiment& experiment) {
   if (rows.empty()) return "";
   std::string html = fmt::format(
       "<section id=\"variants\"><h2>Variants against {}</h2>\n<p>Mean ± standard deviation over "
-      "the "
-      "pairs, the mean difference and its interval. {}</p><div class=\"scroll\"><table "
+      "the pairs, the mean difference and its interval. {}</p><div class=\"scroll\"><table "
       "class=\"compare\"><thead><tr><th>variant</th>"
       "<th class=\"n\">mean ± spread</th><th class=\"n\">difference</th><th class=\"n\">interval"
       "</th><th class=\"n\">pairs</th><th></th></tr></thead><tbody>\n",

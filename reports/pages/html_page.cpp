@@ -145,8 +145,7 @@ std::string StepSection(const ReportedExperiment& experiment) {
   std::string html =
       "<section id=\"steps\"><h2>Time per step</h2>\n<p>Milliseconds. Ours are per frame, summed "
       "over the frame’s iterations. Paper A’s table 1 was measured on one 3.4 GHz CPU; its steps 5 "
-      "to "
-      "11 are printed per iteration and stand here times its 3.5 iterations a frame.</p>\n";
+      "to 11 are printed per iteration and stand here times its 3.5 iterations a frame.</p>\n";
   bool first = true;
   for (const RunRecord* run : runs) {
     html += fmt::format(

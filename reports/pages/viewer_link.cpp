@@ -29,8 +29,7 @@ std::string ViewerChoice(bool any_viewer, const std::string& experiment_folder) 
   }
   return fmt::format(
       "<p class=\"soft\"><code>vitruvia view {}</code> writes a page for each run in which it is "
-      "seen "
-      "in three dimensions, and links it here.</p>\n",
+      "seen in three dimensions, and links it here.</p>\n",
       Escaped(experiment_folder));
 }
 

@@ -115,8 +115,7 @@ std::string SpeedText(const GateOccasion& occasion, const Judgement& judgement) 
   return fmt::format(
       "Times are those of this program and of the baseline's program (commit `{}`), run in turn on "
       "this machine; a change is called only if the {:g} % interval of the median ratio of its "
-      "pairs "
-      "lies outside the tolerance.",
+      "pairs lies outside the tolerance.",
       occasion.reference.commit, 1e2 * occasion.tolerances.confidence);
 }
 

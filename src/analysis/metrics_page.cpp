@@ -11,8 +11,7 @@ constexpr const char* kHead =
     "# Metrics\n"
     "\n"
     "All metrics of run records, as `vitruvia explain --metrics` prints them; `vitruvia explain "
-    "KEY` "
-    "explains one, `vitruvia explain --search WORDS` finds some.\n";
+    "KEY` explains one, `vitruvia explain --search WORDS` finds some.\n";
 
 std::string Item(const char* name, const std::string& value, const char* quote = "") {
   return value.empty() ? "" : fmt::format("- {}: {}{}{}\n", name, quote, value, quote);

@@ -95,12 +95,10 @@ const std::vector<std::string>& FormulaSymbols() {
   static const std::vector<std::string> symbols = {
       "f: a frame; v: a vertex; j: a joint; b: a bone; p: an observed point of the person.",
       "mean, median, p95, p99, max and Σ stand before what they are taken of; their index says "
-      "over "
-      "what, and [ … ] is 1 where the condition holds and 0 elsewhere.",
+      "over what, and [ … ] is 1 where the condition holds and 0 elsewhere.",
       "x̂, ĵ, R̂, Ŝ: vertex, joint, rotation and surface of the estimate; x, j, R, S: the true ones. "
       "Of the L2 errors x_fv is the point of the true surface that belongs to the estimate's "
-      "vertex "
-      "v: the nearest one in the rest pose.",
+      "vertex v: the nearest one in the rest pose.",
       "d(a, B): distance of the point a to the nearest place of B. P_f: the observed points.",
       "V_f: the vertices whose true place the camera sees, no more than 1 cm behind the rendered "
       "true surface; V̂_f: the same of the estimate's own surface.",

@@ -99,7 +99,7 @@ void SummarizeRun(const SequenceInfo& info, RunRecord& record) {
   nlohmann::json& row = record.summary;
   row["frames"] = frame_ms.size();
   row["frames_failed"] =
-      static_cast<int>(Mean(f.at("failed")) * static_cast<double>(frame_ms.size()) + 0.5);
+      static_cast<int>(std::lround(Mean(f.at("failed")) * static_cast<double>(frame_ms.size())));
   row["frame_ms_median"] = Quantile(frame_ms, 0.5);
   row["frame_ms_p95"] = Quantile(frame_ms, 0.95);
   row["frame_ms_max"] = Maximum(frame_ms);

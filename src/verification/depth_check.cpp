@@ -45,8 +45,7 @@ std::optional<Finding> FrameProblem(const DepthAgreement& a, int frame, double u
     return std::nullopt;
   return Impossible(
       "depth/{}: the depth of this frame is {}: {:.4g} times that of the true surface in the "
-      "median "
-      "of {} pixels; {}",
+      "median of {} pixels; {}",
       SequenceFiles::FrameName(frame), TimesTooLarge(ratio), ratio, a.both,
       DepthUnitCause(ratio, unit_m));
 }

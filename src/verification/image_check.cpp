@@ -49,8 +49,7 @@ std::optional<Finding> ByteOrderProblem(const DepthImage& depth, double unit_m, 
   if (as_is <= kSwappedBytesRoughness * std::max(swapped, unit_m)) return std::nullopt;
   return Impossible(
       "depth/{}: neighbouring pixels differ by {:.3f} m in the median, and by {:.4f} m with the "
-      "two "
-      "bytes of each value swapped: were the bytes swapped when it was written? (PNG is "
+      "two bytes of each value swapped: were the bytes swapped when it was written? (PNG is "
       "big-endian)",
       SequenceFiles::FrameName(frame), as_is, swapped);
 }

@@ -97,8 +97,7 @@ std::optional<Finding> VariationProblem(const std::vector<BoneLengths>& bones) {
   if (worst == nullptr) return std::nullopt;
   return Warning(
       "truth/joints.json: the length of \"{}\" changes from {:.3f} to {:.3f} m over the frames "
-      "(5th "
-      "and 95th percentile); are joints swapped or badly marked in some?",
+      "(5th and 95th percentile); are joints swapped or badly marked in some?",
       BoneName(worst->bone), Quantile(worst->lengths_m, 0.05), Quantile(worst->lengths_m, 0.95));
 }
 
@@ -135,8 +134,7 @@ std::optional<Finding> MotionProblem(const SequenceReader& sequence) {
   return Warning(
       "truth/joints.json: the body jumps between frames, {} of {} times, first from frame {} to {} "
       "by {:.2f} m in the mean of its joints ({:.1f} m/s at {:g} frames/s); are frames out of "
-      "order "
-      "or missing, or is fps wrong?",
+      "order or missing, or is fps wrong?",
       jumps, steps.size(), first, first + 1, steps[first], steps[first] * info.fps, info.fps);
 }
 

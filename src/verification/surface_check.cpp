@@ -250,8 +250,7 @@ std::optional<Finding> JointProblem(const JointPlaces& places, std::size_t frame
     distances.push_back((places.stated[i] - places.on_surface[i]).norm());
   return Impossible(
       "truth/joints.json: only {:.0f} % of the joints are where truth/vertices.bin has them "
-      "(median "
-      "distance {:.3g} m over {} frames): {}",
+      "(median distance {:.3g} m over {} frames): {}",
       100.0 * share, Quantile(distances, 0.5), frames, CauseOf(places));
 }
 

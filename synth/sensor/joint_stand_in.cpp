@@ -40,8 +40,7 @@ void JointStandInSettings::Describe(Fields& f) {
 std::string StandInDescription(const JointStandInSettings& s) {
   return fmt::format(
       "true joints with noise of {:g} m on each coordinate, {:g} m farther along the line of "
-      "sight, "
-      "{:g} % of them anywhere within {:g} m, seed {}",
+      "sight, {:g} % of them anywhere within {:g} m, seed {}",
       s.deviation_m, s.depth_bias_m, 100.0 * s.outlier_share, s.outlier_reach_m, s.seed);
 }
 

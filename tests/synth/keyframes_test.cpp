@@ -323,8 +323,7 @@ TEST(MotionFile, RefusesALoopThatDoesNotClose) {
           R"({"then_mirrored": true, "keyframes": [{"time_s": 0, "angles": {"left_knee": {"flexion_deg": 9}}},
                           {"time_s": 1, "angles": {"left_knee": {"flexion_deg": 9}}}]})"),
       "motion.json: then_mirrored: expected the last key frame to be the mirror image of the "
-      "first: "
-      "left_knee.flexion_deg is 9 and 0");
+      "first: left_knee.flexion_deg is 9 and 0");
 }
 
 }  // namespace
