@@ -24,7 +24,8 @@ std::vector<Cause> CausesThere(const std::vector<RunCauses>& runs) {
         runs, [i](const RunCauses& run) { return run.diagnosis.shares[i] > 0.0; });
     if (is_there) causes.push_back(static_cast<Cause>(i));
   }
-  std::ranges::stable_partition(causes, [](Cause cause) { return cause != Cause::kSmall; });
+  std::stable_partition(causes.begin(), causes.end(),
+                        [](Cause cause) { return cause != Cause::kSmall; });
   return causes;
 }
 

@@ -89,8 +89,9 @@ void WriteDepthSheet(const std::filesystem::path& png, const std::vector<DepthTi
   const DrawingWriter writer({.png_scale = 1.5, .formats = {FileFormat::kPng}});
   writer.Write(stem.replace_extension(), width, bottom + kLine + kGap, [&](Canvas& canvas) {
     for (int i = 0; i < count; ++i) {
-      const double x = kGap + i % kColumns * (kTileWidth + kGap);
-      const double y = kGap + i / kColumns * cell_height;
+      const int row = i / kColumns, column = i % kColumns;
+      const double x = kGap + column * (kTileWidth + kGap);
+      const double y = kGap + row * cell_height;
       const auto at = static_cast<std::size_t>(i);
       canvas.Text({x, y + 0.5 * kLine}, tiles[at].label, {.size = 12.0});
       canvas.Image({x, y + kLine}, kTileWidth, height, pictures[at]);

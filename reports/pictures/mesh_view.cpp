@@ -78,6 +78,7 @@ void MeshView::PlaceCorners(const PinholeCamera& camera, const PictureWindow& pa
 }
 
 void MeshView::DrawTriangle(const Corner& a, const Corner& b, const Corner& c) {
+  constexpr float kToNearest = 0.5f;  // added before a cast to an integer, which truncates
   if (std::min({a.inverse_z, b.inverse_z, c.inverse_z}) == 0.0f) return;
   const float area = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
   if (area == 0.0f) return;
@@ -109,7 +110,7 @@ void MeshView::DrawTriangle(const Corner& a, const Corner& b, const Corner& c) {
       inverse_z_[sample] = inverse_z;
       for (std::size_t k = 0; k < 3; ++k) {
         colors_[sample][k] = static_cast<std::uint8_t>(share_a * a.color[k] + share_b * b.color[k] +
-                                                       share_c * c.color[k] + 0.5f);
+                                                       share_c * c.color[k] + kToNearest);
       }
     }
   }
