@@ -145,8 +145,9 @@ void Skinning(const std::vector<BodyModel>& bodies, std::vector<Row>& rows) {
       const BoneTransforms still(kBoneCount);
       std::vector<Vector3f> posed;
       samples.push_back({static_cast<double>(body.rest.vertices.size()),
-                         MedianMs(kGrowthRepeats,
-                                  [&] { skin(body.rest.vertices, body.weights, still, posed); })});
+                         MedianMs(kGrowthRepeats, [&, skin = skin] {
+                           skin(body.rest.vertices, body.weights, still, posed);
+                         })});
     }
     AddRows(name, "vertices", samples, rows);
   }

@@ -15,7 +15,7 @@ TEST(ProcessMemory, PeakHoldsWhatWasGivenBackUntilForgotten) {
   constexpr double kTolerance_mb = 4.0;
   ForgetPeakMemory();
   const double before_mb = ResidentMemory_mb();
-  std::vector<char>(kBytes, 1);
+  { const std::vector<char> given_back(kBytes, 1); }
   EXPECT_NEAR(PeakMemory_mb(), before_mb + 80.0, kTolerance_mb);
   EXPECT_NEAR(ResidentMemory_mb(), before_mb, kTolerance_mb);
   ForgetPeakMemory();

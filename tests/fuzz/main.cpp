@@ -10,6 +10,8 @@
 
 #include "formats.h"
 
+// The sanitizers' own name.
+// NOLINTNEXTLINE(bugprone-reserved-identifier,readability-identifier-naming)
 extern "C" void __sanitizer_set_death_callback(void (*)()) __attribute__((weak));
 
 namespace vitruvia {

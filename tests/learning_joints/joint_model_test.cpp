@@ -189,7 +189,7 @@ TEST(RandomPose, KeepsArmsClearOfTheTrunk) {
     const JointPose pose = DrawClearPose(settings, body.skeleton, random);
     const BodyPointPositions points =
         PosedPoints(body.skeleton, ForwardKinematics(body.skeleton, pose));
-    const Vector3d pelvis = points[static_cast<int>(BoneId::kPelvis)];
+    const Vector3d& pelvis = points[static_cast<int>(BoneId::kPelvis)];
     EXPECT_GE((points[static_cast<int>(BoneId::kLeftHand)] - pelvis).norm(),
               settings.trunk_clearance_m);
   }
