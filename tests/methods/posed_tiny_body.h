@@ -112,7 +112,7 @@ struct PosedTinyBody {
 
   int VertexCount() const { return static_cast<int>(model.rest_vertices.size()); }
 
-  const PinholeCamera camera;
+  const PinholeCamera camera{};
   const Rigidd camera_from_rest{Vector3d(1, -1, -1).asDiagonal(), {0.1, 0.9, 2.8}};
   const BodyModel body = TinyBody(kCellsPerSegment);
   const Model model{body};

@@ -445,7 +445,8 @@ TEST_F(Terms, AreInvariantUnderARigidMotionOfEverything) {
   LocalRotations moved_previous = previous;
   moved_previous[0] = moved_from_camera.rotation * previous[0];
   expect_same(Inertia(previous), Inertia(moved_previous), 1e-9);
-  FitData pairs = Pairs(bent, 7, 0.02), moved_pairs = pairs;
+  const FitData pairs = Pairs(bent, 7, 0.02);
+  FitData moved_pairs = pairs;
   for (Pair& pair : moved_pairs.pairs) {
     pair.target = (moved_from_camera * pair.target.cast<double>().eval()).cast<float>();
   }

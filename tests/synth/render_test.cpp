@@ -109,10 +109,10 @@ TEST(DepthRenderer, SphereHasItsAnalyticDepthAndOutline) {
 // One pixel is covered if and only if its centre lies inside: a square round the centre of (u, v)
 // that reaches 0.3 pixels to each side covers exactly that pixel.
 TEST(DepthRenderer, PixelsAreSampledAtTheirCentres) {
-  const float z = 2.0f;
+  constexpr float z = 2.0f;
   const std::vector<std::array<int, 2>> pixels{{0, 0}, {319, 239}, {7, 201}};
   for (const auto& [u, v] : pixels) {
-    const auto corner = [&](double du, double dv) {
+    const auto corner = [u = u, v = v](double du, double dv) {
       return kCamera.Unproject<double>(u + du, v + dv, z).cast<float>().eval();
     };
     const DepthImage depth = RenderWith(
