@@ -2,8 +2,8 @@
 //
 // Start hypotheses (headings × poses of body/start_poses.h) are fitted coarse to fine
 // (fitting/pose_search.h); pose, position, the space's first coefficients and one uniform scale are
-// estimated together. The result has a margin of confidence; a surface that is not a person is
-// rejected with the distances.
+// estimated together. A known height is held: only shapes of that height are fitted. The result has
+// a margin of confidence; a surface that is not a person is rejected with the distances.
 #pragma once
 
 #include <memory>
@@ -72,7 +72,9 @@ class Registrar {
   std::vector<PoseHypothesis> Hypotheses(const Matrix3<double>& world_from_front,
                                          double height_m) const;
   Registration Judged(const SearchOutcome& found) const;
-  Eigen::VectorXd ScaledShape(double scale) const;  // the expected shape, scaled
+  // The expected shape, scaled, in the space's coefficients and the scale's.
+  Eigen::VectorXd ScaledShape(double scale) const;
+  Eigen::VectorXd ExpectedShape() const;  // in those of body_
   Eigen::VectorXd StartShape(const PoseHypothesis& hypothesis, double height_m) const;
   void Judge(Registration& registration) const;
 
@@ -80,7 +82,9 @@ class Registrar {
   RegistrationSettings settings_;
   KnownAttributes known_;
   SizedShape expected_;  // of the known attributes
-  ShapedBody fine_body_, coarse_body_;
+  // The space's coefficients and the scale's; with a known height, those of AsTallAs().
+  ShapedBody body_;
+  ShapedBody fine_body_, coarse_body_;  // on fewer vertices
   std::unique_ptr<PoseFit> fine_, coarse_;
 };
 
