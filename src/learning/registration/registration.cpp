@@ -154,12 +154,12 @@ std::vector<PoseHypothesis> Registrar::Hypotheses(const Matrix3<double>& world_f
   return hypotheses;
 }
 
-Registration Registrar::Judged(const SearchOutcome& found) const {
+Registration Registrar::Judged(const SearchOutcome& found, const NearFar& limits) const {
   Registration registration{found.best.state, found.best.distance, found.margin,
                             fmt::format("{}, heading {:.0f} degrees", found.best.start->pose,
                                         found.best.start->heading_deg),
                             ""};
-  Judge(registration);
+  Judge(registration, limits);
   return registration;
 }
 
@@ -180,7 +180,8 @@ Registration Registrar::Find(const TriangleMesh& surface) {
                            {{coarse_.get(), &coarse_target, {6, 0.5, 0.25, 0.5, false}, 20},
                             {coarse_.get(), &coarse_target, {10, 0.3, 0.12, 0.2, true}, 6},
                             {fine_.get(), &fine_target, {15, 0.15, 0.05, 0.05, true}, 2}},
-                           Priors(), Limits()));
+                           Priors(), Limits()),
+                Limits());
 }
 
 Registration Registrar::Find(const DepthImage& depth, const PinholeCamera& camera) {
@@ -193,9 +194,12 @@ Registration Registrar::Find(const DepthImage& depth, const PinholeCamera& camer
   }
   const Matrix3<double> facing_camera = Vector3d(1.0, -1.0, -1.0).asDiagonal();
   const std::vector<PoseHypothesis> hypotheses = Hypotheses(facing_camera, fine_target.height_m());
-  return Judged(SearchDepth(hypotheses,
-                            {coarse_.get(), fine_.get(), &coarse_target, &fine_target, true},
-                            Priors(), Limits()));
+  SearchOutcome found =
+      SearchDepth(hypotheses, {coarse_.get(), fine_.get(), &coarse_target, &fine_target, true},
+                  Priors(), Limits());
+  const NearFar limits = settings_.search.LimitsAt(fine_target.Center().z());
+  found.best.distance = fine_->Measure(fine_target, found.best.state, limits);
+  return Judged(found, limits);
 }
 
 std::vector<Registration> Registrar::FindSame(const std::vector<DepthImage>& frames,
@@ -231,8 +235,9 @@ std::vector<Registration> Registrar::FindSame(const std::vector<DepthImage>& fra
     if (round < kRounds) theta -= hessian.ldlt().solve(gradient);
   }
   for (std::size_t f = 0; f < found.size(); ++f) {
-    found[f].distance = fine_->Measure(targets[f], found[f].state, Limits());
-    Judge(found[f]);
+    const NearFar limits = settings_.search.LimitsAt(targets[f].Center().z());
+    found[f].distance = fine_->Measure(targets[f], found[f].state, limits);
+    Judge(found[f], limits);
   }
   return found;
 }
@@ -248,11 +253,11 @@ Registration Registrar::Follow(const TriangleMesh& surface, const BodyState& nea
   registration.state = fine_->Run(target, registration.state, {6, 0.1, 0.05, 0.05, false}, priors);
   registration.distance = fine_->Measure(target, registration.state, Limits());
   registration.start = "the frame before";
-  Judge(registration);
+  Judge(registration, Limits());
   return registration;
 }
 
-void Registrar::Judge(Registration& registration) const {
+void Registrar::Judge(Registration& registration, const NearFar& limits) const {
   const MutualDistance& d = registration.distance;
   if (d.target_explained >= settings_.search.least_explained &&
       d.body_explained >= settings_.search.least_explained &&
@@ -261,10 +266,10 @@ void Registrar::Judge(Registration& registration) const {
   }
   registration.problem = fmt::format(
       "no person: the body explains {:.0f} % of the surface, and the surface {:.0f} % of the body "
-      "(expected at least {:.0f} % within {:g} m); mean distance {:.1f} mm (expected at most "
+      "(expected at least {:.0f} % within {:.2g} m); mean distance {:.1f} mm (expected at most "
       "{:.1f} mm). Is it one whole person, y up, in metres?",
       100.0 * d.target_explained, 100.0 * d.body_explained,
-      100.0 * settings_.search.least_explained, settings_.search.near_m, 1e3 * d.mean_m(),
+      100.0 * settings_.search.least_explained, limits.near_m, 1e3 * d.mean_m(),
       1e3 * settings_.most_distance_m);
 }
 

@@ -71,12 +71,13 @@ class Registrar {
   NearFar Limits() const;
   std::vector<PoseHypothesis> Hypotheses(const Matrix3<double>& world_from_front,
                                          double height_m) const;
-  Registration Judged(const SearchOutcome& found) const;
+  // `limits`: those with which its distance was measured.
+  Registration Judged(const SearchOutcome& found, const NearFar& limits) const;
   // The expected shape, scaled, in the space's coefficients and the scale's.
   Eigen::VectorXd ScaledShape(double scale) const;
   Eigen::VectorXd ExpectedShape() const;  // in those of body_
   Eigen::VectorXd StartShape(const PoseHypothesis& hypothesis, double height_m) const;
-  void Judge(Registration& registration) const;
+  void Judge(Registration& registration, const NearFar& limits) const;
 
   const ShapeSpace& space_;
   RegistrationSettings settings_;
