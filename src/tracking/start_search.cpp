@@ -70,7 +70,8 @@ FoundStart StartSearch::Find(const DepthImage& depth, const KnownJoints& known) 
   const SearchOutcome found = Search(coarse_target, fine_target, known);
   start.state = found.best.state;
   start.camera_from_rest = WorldFromRest(fine_body_, start.state);
-  start.distance = fine_.Measure(fine_target, start.state, {settings_.near_m, settings_.far_m});
+  start.distance =
+      fine_.Measure(fine_target, start.state, settings_.LimitsAt(fine_target.Center().z()));
   start.margin = found.margin;
   const MutualDistance& d = start.distance;
   start.found = d.target_explained >= settings_.least_explained &&

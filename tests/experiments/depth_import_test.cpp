@@ -16,23 +16,12 @@
 #include "geometry/depth_png.h"
 #include "geometry/image_file.h"
 #include "sequence/sequence.h"
+#include "support/mask_truth.h"
 #include "support/written_image.h"
 #include "synth/scene/scene.h"
 
 namespace vitruvia {
 namespace {
-
-// How well a mask agrees with the true one, over the pixels that are measured: shared / either.
-double MaskOverlap(const MaskImage& mask, const MaskImage& truth, const DepthImage& depth) {
-  long shared = 0, either = 0;
-  for (std::size_t i = 0; i < depth.pixels().size(); ++i) {
-    if (!(depth.pixels()[i] > 0.0f)) continue;
-    const bool a = mask.pixels()[i] != 0, b = truth.pixels()[i] != 0;
-    shared += a && b ? 1 : 0;
-    either += a || b ? 1 : 0;
-  }
-  return static_cast<double>(shared) / static_cast<double>(either);
-}
 
 namespace fs = std::filesystem;
 using testing::AllOf;
@@ -40,40 +29,6 @@ using testing::HasSubstr;
 
 constexpr double kLeastOverlap = 0.97;
 constexpr double kFeetWithin_px = 2.0;
-constexpr double kFootRadius_m = 0.2;  // round an ankle
-
-// How far the farthest true pixel of a foot that was lost is from what was kept, pixels.
-double FeetLost_px(const SequenceReader& scene, int frame, const MaskImage& mask) {
-  const MaskImage truth = scene.ReadMask(frame);
-  const DepthImage depth = scene.ReadDepth(frame);  // of the person
-  const PinholeCamera& camera = scene.info().camera;
-  const JointTruth& joints = scene.true_joints(frame);
-  std::vector<Vector3d> ankles;
-  for (std::size_t j = 0; j < scene.info().joints.size(); ++j) {
-    if (scene.info().joints[j].ends_with("_ankle")) ankles.push_back(joints.positions[j]);
-  }
-  double farthest = 0.0;
-  for (int v = 0; v < depth.height(); ++v) {
-    for (int u = 0; u < depth.width(); ++u) {
-      if (!(depth(u, v) > 0.0f) || truth(u, v) == 0 || mask(u, v) != 0) continue;
-      const Vector3d point = camera.Unproject<double>(u, v, depth(u, v));
-      const bool is_foot = std::any_of(ankles.begin(), ankles.end(), [&](const Vector3d& ankle) {
-        return (point - ankle).norm() < kFootRadius_m;
-      });
-      if (!is_foot) continue;
-      double nearest = 1e9;
-      for (int dv = -8; dv <= 8; ++dv) {
-        for (int du = -8; du <= 8; ++du) {
-          if (mask.Contains(u + du, v + dv) && mask(u + du, v + dv) != 0)
-            nearest = std::min(nearest, std::hypot(du, dv));
-        }
-      }
-      farthest = std::max(farthest, nearest);
-    }
-  }
-  return farthest;
-}
-
 class DepthImport : public testing::Test {
  protected:
   // A scene of configs/ at a quarter of its size and with so many frames, made as `scene`.

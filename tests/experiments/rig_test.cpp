@@ -79,5 +79,32 @@ TEST_F(RigCommand, MakesASubjectOfAHeight) {
                 ExitCode::kBadConfiguration, {"expected --height"});
 }
 
+TEST_F(RigCommand, MakesASubjectOfFramesWithTheGivenHeight) {
+  ASSERT_EQ(
+      CallVitruvia({"synth", (kConfigs / "scenes/small.json").string(), "-o", File("scene")}).code,
+      0);
+  const auto settings = [&](double least_explained) {
+    WriteWholeFile(folder_ / "seen.json", Json({{"frames", 2},
+                                                {"registration",
+                                                 {{"components", 4},
+                                                  {"headings", 4},
+                                                  {"coarse_vertices", 300},
+                                                  {"fine_vertices", 800},
+                                                  {"least_explained", least_explained}}}})
+                                              .dump());
+  };
+  const std::vector<std::string> command{"subject",         "--space",  File("space"), "--sequence",
+                                         File("scene"),     "--height", "1.81",        "--settings",
+                                         File("seen.json"), "-o",       File("seen")};
+  settings(1.0);
+  ExpectRefusal(command, ExitCode::kBadData, {"scene: frame 0: no person"});
+  EXPECT_FALSE(fs::exists(folder_ / "seen"));
+  settings(0.8);
+  const CallResult call = CallVitruvia(command);
+  ASSERT_EQ(call.code, 0) << call.error;
+  EXPECT_NEAR(ReadBodyModel(folder_ / "seen").attributes.height_m, 1.81, 0.003);
+  EXPECT_TRUE(fs::exists(folder_ / "seen/registration.png"));
+}
+
 }  // namespace
 }  // namespace vitruvia

@@ -96,15 +96,18 @@ TEST(Registration, FollowsToTheNextSurface) {
   EXPECT_LT(MeanJointError(registrar, next, moved), 0.012);
 }
 
-TEST(Registration, FindsAPersonInADepthFrame) {
+// The frame alone would have the person of their own height.
+TEST(Registration, FindsAPersonInADepthFrameAndHoldsTheGivenHeight) {
   const Posed truth = SomebodyStriding(Vector3d(1.0, -1.0, -1.0).asDiagonal(), {0.1, 0.1, 2.6});
   const PinholeCamera camera;
   ZBuffer zbuffer(camera);
-  Registrar registrar(SmallSpace(), {truth.body.attributes.height_m, {}, {}}, QuickSettings());
+  const double given_m = truth.body.attributes.height_m + 0.04;
+  Registrar registrar(SmallSpace(), {given_m, {}, {}}, QuickSettings());
   const Registration found =
       registrar.Find(zbuffer.Render(truth.surface.vertices, truth.surface.triangles), camera);
   EXPECT_EQ(found.problem, "");
   EXPECT_LT(MeanJointError(registrar, found, truth), 0.04);
+  EXPECT_NEAR(registrar.Body(found.state.theta).attributes.height_m, given_m, 0.002);
 }
 
 TEST(Registration, RefusesWhatIsNoPerson) {

@@ -44,7 +44,7 @@ struct StartResult {
   double first_error_m = 0.0;  // mean distance of the joints after the first frame
   double last_error_m = 0.0;   // after the last
   bool swapped = false;        // left and right, after the first frame
-  double first_ms = 0.0;       // of the first frame
+  double first_ms = 0.0;       // processor time of the first frame
 };
 // `frames` frames of the person at rest, each with noise of its own.
 StartResult RunStartTrial(const StartTrial& trial, const StartPerson& person,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 
 #include "core/error.h"
 #include "core/progress.h"
@@ -38,6 +39,27 @@ ShapedBody WithScale(const ShapeSpace& space, int components, double scale_devia
 }
 
 double HeightOf(const std::vector<Vector3f>& vertices) { return BoundingBox(vertices).sizes().y(); }
+
+// The body's shapes that are as tall as the expected one, in coefficients about it: one fewer, and
+// standard normal as before. The height is linear in the coefficients as long as the crown and the
+// soles are at the same vertices.
+ShapedBody AsTallAs(const ShapedBody& body, const Eigen::VectorXd& expected) {
+  ShapedBody tall = body;
+  tall.mean = ShapedSurface(body, expected);
+  tall.skeleton = ShapedSkeleton(body, expected);
+  const auto [sole, crown] =
+      std::minmax_element(tall.mean.begin(), tall.mean.end(),
+                          [](const Vector3f& a, const Vector3f& b) { return a.y() < b.y(); });
+  const auto y_of = [&](auto vertex) {
+    return body.basis.row(3 * (vertex - tall.mean.begin()) + 1);
+  };
+  const Eigen::VectorXd taller = (y_of(crown) - y_of(sole)).transpose().cast<double>();
+  const Eigen::MatrixXd directions = Eigen::HouseholderQR<Eigen::MatrixXd>(taller).householderQ();
+  const Eigen::MatrixXd level = directions.rightCols(body.shape_count() - 1);
+  tall.basis = body.basis * level.cast<float>();
+  tall.joint_basis = body.joint_basis * level;
+  return tall;
+}
 
 }  // namespace
 
@@ -81,9 +103,10 @@ Registrar::Registrar(const ShapeSpace& space, const KnownAttributes& known,
                     space.components(), settings.components));
   }
   expected_ = ShapeOfSize(space, known, settings.components, kMostUnusual);
-  const ShapedBody whole = WithScale(space, settings.components, settings.scale_deviation);
-  fine_body_ = Coarser(whole, settings.search.fine_vertices);
-  coarse_body_ = Coarser(whole, settings.search.coarse_vertices);
+  body_ = WithScale(space, settings.components, settings.scale_deviation);
+  if (known.height_m) body_ = AsTallAs(body_, ScaledShape(expected_.scale));
+  fine_body_ = Coarser(body_, settings.search.fine_vertices);
+  coarse_body_ = Coarser(body_, settings.search.coarse_vertices);
   fine_ = std::make_unique<PoseFit>(fine_body_);
   coarse_ = std::make_unique<PoseFit>(coarse_body_);
 }
@@ -99,15 +122,20 @@ FitPriors Registrar::Priors() const {
 NearFar Registrar::Limits() const { return {settings_.search.near_m, settings_.search.far_m}; }
 
 Eigen::VectorXd Registrar::ScaledShape(double scale) const {
-  Eigen::VectorXd theta(fine_body_.shape_count());
+  Eigen::VectorXd theta(settings_.components + 1);
   theta << scale * expected_.theta, (scale - 1.0) / settings_.scale_deviation;
   return theta;
+}
+
+Eigen::VectorXd Registrar::ExpectedShape() const {
+  return known_.height_m ? Eigen::VectorXd(Eigen::VectorXd::Zero(body_.shape_count()))
+                         : ScaledShape(1.0);
 }
 
 // The expected shape; if the height is not known, it is scaled so that the posed body has the
 // height of the measurements.
 Eigen::VectorXd Registrar::StartShape(const PoseHypothesis& hypothesis, double height_m) const {
-  if (known_.height_m) return ScaledShape(expected_.scale);
+  if (known_.height_m) return ExpectedShape();
   BodyState state = hypothesis.state;
   state.theta = ScaledShape(1.0);
   PosedBody posed(coarse_body_);
@@ -126,12 +154,12 @@ std::vector<PoseHypothesis> Registrar::Hypotheses(const Matrix3<double>& world_f
   return hypotheses;
 }
 
-Registration Registrar::Judged(const SearchOutcome& found) const {
+Registration Registrar::Judged(const SearchOutcome& found, const NearFar& limits) const {
   Registration registration{found.best.state, found.best.distance, found.margin,
                             fmt::format("{}, heading {:.0f} degrees", found.best.start->pose,
                                         found.best.start->heading_deg),
                             ""};
-  Judge(registration);
+  Judge(registration, limits);
   return registration;
 }
 
@@ -152,7 +180,8 @@ Registration Registrar::Find(const TriangleMesh& surface) {
                            {{coarse_.get(), &coarse_target, {6, 0.5, 0.25, 0.5, false}, 20},
                             {coarse_.get(), &coarse_target, {10, 0.3, 0.12, 0.2, true}, 6},
                             {fine_.get(), &fine_target, {15, 0.15, 0.05, 0.05, true}, 2}},
-                           Priors(), Limits()));
+                           Priors(), Limits()),
+                Limits());
 }
 
 Registration Registrar::Find(const DepthImage& depth, const PinholeCamera& camera) {
@@ -165,9 +194,12 @@ Registration Registrar::Find(const DepthImage& depth, const PinholeCamera& camer
   }
   const Matrix3<double> facing_camera = Vector3d(1.0, -1.0, -1.0).asDiagonal();
   const std::vector<PoseHypothesis> hypotheses = Hypotheses(facing_camera, fine_target.height_m());
-  return Judged(SearchDepth(hypotheses,
-                            {coarse_.get(), fine_.get(), &coarse_target, &fine_target, true},
-                            Priors(), Limits()));
+  SearchOutcome found =
+      SearchDepth(hypotheses, {coarse_.get(), fine_.get(), &coarse_target, &fine_target, true},
+                  Priors(), Limits());
+  const NearFar limits = settings_.search.LimitsAt(fine_target.Center().z());
+  found.best.distance = fine_->Measure(fine_target, found.best.state, limits);
+  return Judged(found, limits);
 }
 
 std::vector<Registration> Registrar::FindSame(const std::vector<DepthImage>& frames,
@@ -185,7 +217,7 @@ std::vector<Registration> Registrar::FindSame(const std::vector<DepthImage>& fra
   std::vector<DepthTarget> targets;
   for (const DepthImage& frame : frames) targets.emplace_back(frame, camera, kFineFrame);
   FitPriors priors = Priors();
-  priors.theta = ScaledShape(known_.height_m ? expected_.scale : 1.0);
+  priors.theta = ExpectedShape();
   Eigen::VectorXd theta = Eigen::VectorXd::Zero(priors.theta.size());
   for (const Registration& r : found) theta += r.state.theta / static_cast<double>(found.size());
   for (int round = 0; round <= kRounds; ++round) {
@@ -203,8 +235,9 @@ std::vector<Registration> Registrar::FindSame(const std::vector<DepthImage>& fra
     if (round < kRounds) theta -= hessian.ldlt().solve(gradient);
   }
   for (std::size_t f = 0; f < found.size(); ++f) {
-    found[f].distance = fine_->Measure(targets[f], found[f].state, Limits());
-    Judge(found[f]);
+    const NearFar limits = settings_.search.LimitsAt(targets[f].Center().z());
+    found[f].distance = fine_->Measure(targets[f], found[f].state, limits);
+    Judge(found[f], limits);
   }
   return found;
 }
@@ -220,11 +253,11 @@ Registration Registrar::Follow(const TriangleMesh& surface, const BodyState& nea
   registration.state = fine_->Run(target, registration.state, {6, 0.1, 0.05, 0.05, false}, priors);
   registration.distance = fine_->Measure(target, registration.state, Limits());
   registration.start = "the frame before";
-  Judge(registration);
+  Judge(registration, Limits());
   return registration;
 }
 
-void Registrar::Judge(Registration& registration) const {
+void Registrar::Judge(Registration& registration, const NearFar& limits) const {
   const MutualDistance& d = registration.distance;
   if (d.target_explained >= settings_.search.least_explained &&
       d.body_explained >= settings_.search.least_explained &&
@@ -233,18 +266,17 @@ void Registrar::Judge(Registration& registration) const {
   }
   registration.problem = fmt::format(
       "no person: the body explains {:.0f} % of the surface, and the surface {:.0f} % of the body "
-      "(expected at least {:.0f} % within {:g} m); mean distance {:.1f} mm (expected at most "
+      "(expected at least {:.0f} % within {:.2g} m); mean distance {:.1f} mm (expected at most "
       "{:.1f} mm). Is it one whole person, y up, in metres?",
       100.0 * d.target_explained, 100.0 * d.body_explained,
-      100.0 * settings_.search.least_explained, settings_.search.near_m, 1e3 * d.mean_m(),
+      100.0 * settings_.search.least_explained, limits.near_m, 1e3 * d.mean_m(),
       1e3 * settings_.most_distance_m);
 }
 
 BodyModel Registrar::Body(const Eigen::VectorXd& theta) const {
-  const ShapedBody whole = WithScale(space_, settings_.components, settings_.scale_deviation);
   BodyModel body = space_.reference;
-  body.rest.vertices = ShapedSurface(whole, theta);
-  body.skeleton = ShapedSkeleton(whole, theta);
+  body.rest.vertices = ShapedSurface(body_, theta);
+  body.skeleton = ShapedSkeleton(body_, theta);
   const Vector3f lift(0.0f, -BoundingBox(body.rest.vertices).min().y(), 0.0f);
   for (Vector3f& v : body.rest.vertices) v += lift;
   for (int b = 0; b < kBoneCount; ++b) {

@@ -2,8 +2,8 @@
 //
 // Start hypotheses (headings × poses of body/start_poses.h) are fitted coarse to fine
 // (fitting/pose_search.h); pose, position, the space's first coefficients and one uniform scale are
-// estimated together. The result has a margin of confidence; a surface that is not a person is
-// rejected with the distances.
+// estimated together. A known height is held: only shapes of that height are fitted. The result has
+// a margin of confidence; a surface that is not a person is rejected with the distances.
 #pragma once
 
 #include <memory>
@@ -71,16 +71,21 @@ class Registrar {
   NearFar Limits() const;
   std::vector<PoseHypothesis> Hypotheses(const Matrix3<double>& world_from_front,
                                          double height_m) const;
-  Registration Judged(const SearchOutcome& found) const;
-  Eigen::VectorXd ScaledShape(double scale) const;  // the expected shape, scaled
+  // `limits`: those with which its distance was measured.
+  Registration Judged(const SearchOutcome& found, const NearFar& limits) const;
+  // The expected shape, scaled, in the space's coefficients and the scale's.
+  Eigen::VectorXd ScaledShape(double scale) const;
+  Eigen::VectorXd ExpectedShape() const;  // in those of body_
   Eigen::VectorXd StartShape(const PoseHypothesis& hypothesis, double height_m) const;
-  void Judge(Registration& registration) const;
+  void Judge(Registration& registration, const NearFar& limits) const;
 
   const ShapeSpace& space_;
   RegistrationSettings settings_;
   KnownAttributes known_;
   SizedShape expected_;  // of the known attributes
-  ShapedBody fine_body_, coarse_body_;
+  // The space's coefficients and the scale's; with a known height, those of AsTallAs().
+  ShapedBody body_;
+  ShapedBody fine_body_, coarse_body_;  // on fewer vertices
   std::unique_ptr<PoseFit> fine_, coarse_;
 };
 
