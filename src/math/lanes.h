@@ -3,7 +3,6 @@
 // lane by lane; Eigen 3.4 does not vectorise such a selection.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <vector>
@@ -40,19 +39,6 @@ using Lanes = typename LanesOf<Scalar>::Type;
 
 inline FloatLanes Min(FloatLanes a, FloatLanes b) { return a < b ? a : b; }
 inline FloatLanes Max(FloatLanes a, FloatLanes b) { return a > b ? a : b; }
-
-inline FloatLanes SquareRoot(FloatLanes x) {
-#ifdef __AVX__
-  return _mm256_sqrt_ps(x);
-#else
-  for (int lane = 0; lane < kLanes; ++lane) x[lane] = std::sqrt(x[lane]);
-  return x;
-#endif
-}
-inline DoubleLanes SquareRoot(DoubleLanes x) {
-  for (int lane = 0; lane < kLanes; ++lane) x[lane] = std::sqrt(x[lane]);
-  return x;
-}
 
 // The next three functions need numbers that fit an int.
 inline IntLanes Truncate(FloatLanes x) { return __builtin_convertvector(x, IntLanes); }
