@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 
 #include "core/error.h"
 #include "math/dual_quaternion.h"
+#include "math/lanes.h"
 #include "math/rigid.h"
 
 // Precision: bone transforms are composed in double; skinning rounds each to float once and works
@@ -17,8 +19,37 @@ namespace {
 
 constexpr float kWeightSumTolerance = 1e-4f;  // four weights as files with five digits hold them
 
-// A bone's motion, or a blend of several: three rows of [R | t].
-using Matrix34f = Eigen::Matrix<float, 3, 4, Eigen::DontAlign>;
+// A bone's motion, or a blend of several: the columns of [R | t], each filled up to four numbers,
+// two columns side by side. Blending two motions is two products and two sums.
+struct MotionLanes {
+  FloatLanes xy, zt;
+
+  explicit MotionLanes(const Rigidd& motion) {
+    Eigen::Matrix4f columns = Eigen::Matrix4f::Zero();
+    columns.topLeftCorner<3, 3>() = motion.rotation.cast<float>();
+    columns.topRightCorner<3, 1>() = motion.translation.cast<float>();
+    std::memcpy(&xy, columns.data(), sizeof xy);
+    std::memcpy(&zt, columns.data() + kLanes, sizeof zt);
+  }
+  MotionLanes(const FloatLanes& x_y, const FloatLanes& z_t) : xy(x_y), zt(z_t) {}
+
+  MotionLanes& operator+=(const MotionLanes& other) {
+    xy += other.xy;
+    zt += other.zt;
+    return *this;
+  }
+  friend MotionLanes operator*(float weight, const MotionLanes& m) {
+    return {weight * m.xy, weight * m.zt};
+  }
+  Vector3f operator*(const Vector3f& p) const {
+    const FloatQuad x = __builtin_shufflevector(xy, xy, 0, 1, 2, 3);
+    const FloatQuad y = __builtin_shufflevector(xy, xy, 4, 5, 6, 7);
+    const FloatQuad z = __builtin_shufflevector(zt, zt, 0, 1, 2, 3);
+    const FloatQuad t = __builtin_shufflevector(zt, zt, 4, 5, 6, 7);
+    const FloatQuad moved = (x * p.x() + (y * p.y() + z * p.z())) + t;
+    return {moved[0], moved[1], moved[2]};
+  }
+};
 
 void CheckSizes(std::size_t vertex_count, const SkinWeights& weights, const char* caller) {
   Require(weights.bones.size() == vertex_count && weights.weights.size() == vertex_count,
@@ -33,10 +64,6 @@ void CheckBones(const SkinWeights& weights, std::size_t bone_count, const char* 
   }
   Require(weights.size() == 0 || highest < bone_count,
           "{}: weights refer to bone {}, but there are {} transforms", caller, highest, bone_count);
-}
-
-Vector3f Transformed(const Matrix34f& m, const Vector3f& p) {
-  return m.leftCols<3>() * p + m.col(3);
 }
 
 }  // namespace
@@ -111,18 +138,14 @@ void SkinLinear(const std::vector<Vector3f>& rest_vertices, const SkinWeights& w
                 const BoneTransforms& posed_from_rest, std::vector<Vector3f>& posed) {
   CheckSizes(rest_vertices.size(), weights, "SkinLinear");
   CheckBones(weights, posed_from_rest.size(), "SkinLinear");
-  std::vector<Matrix34f> bones(posed_from_rest.size());
-  for (std::size_t b = 0; b < bones.size(); ++b) {
-    bones[b] << posed_from_rest[b].rotation.cast<float>(),
-        posed_from_rest[b].translation.cast<float>();
-  }
+  const std::vector<MotionLanes> bones(posed_from_rest.begin(), posed_from_rest.end());
   posed.resize(rest_vertices.size());
   for (std::size_t v = 0; v < rest_vertices.size(); ++v) {
-    Matrix34f blend = weights.weights[v][0] * bones[weights.bones[v][0]];
+    MotionLanes blend = weights.weights[v][0] * bones[weights.bones[v][0]];
     for (int k = 1; k < kMaxInfluences && weights.weights[v][k] > 0.0f; ++k) {
       blend += weights.weights[v][k] * bones[weights.bones[v][k]];
     }
-    posed[v] = Transformed(blend, rest_vertices[v]);
+    posed[v] = blend * rest_vertices[v];
   }
 }
 

@@ -1,6 +1,6 @@
-// SIMD vectors of eight numbers, by the vector extension of GCC and Clang, whose operators work
-// lane by lane. A comparison gives 0 or −1 in each lane, and `mask ? a : b` selects lane by lane;
-// Eigen 3.4 does not vectorise such a selection.
+// SIMD vectors of eight numbers (and of four), by the vector extension of GCC and Clang, whose
+// operators work lane by lane. A comparison gives 0 or −1 in each lane, and `mask ? a : b` selects
+// lane by lane; Eigen 3.4 does not vectorise such a selection.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,31 @@
 #include <immintrin.h>
 #endif
 
+// Eight doubles fill two registers, so compilers warn that a program with AVX-512 would return them
+// in another way. All files of a program are compiled for the same instructions.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 namespace vitruvia {
 
 inline constexpr int kLanes = 8;
 using FloatLanes = float __attribute__((vector_size(sizeof(float) * kLanes)));
+using DoubleLanes = double __attribute__((vector_size(sizeof(double) * kLanes)));
+using FloatQuad = float __attribute__((vector_size(sizeof(float) * 4)));
 using IntLanes = std::int32_t __attribute__((vector_size(sizeof(std::int32_t) * kLanes)));
+
+// The lanes of a kind of number that a template takes.
+template <class Scalar>
+struct LanesOf;
+template <>
+struct LanesOf<float> {
+  using Type = FloatLanes;
+};
+template <>
+struct LanesOf<double> {
+  using Type = DoubleLanes;
+};
+template <class Scalar>
+using Lanes = typename LanesOf<Scalar>::Type;
 
 inline FloatLanes Min(FloatLanes a, FloatLanes b) { return a < b ? a : b; }
 inline FloatLanes Max(FloatLanes a, FloatLanes b) { return a > b ? a : b; }
@@ -42,20 +62,53 @@ inline unsigned Bits(IntLanes mask) {
 #endif
 }
 
-template <class Lanes>
-auto SmallestLane(const Lanes& v) {
-  const auto least = [](const Lanes& a, const Lanes& b) { return a < b ? a : b; };
-  const Lanes four = least(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3));
-  const Lanes two = least(four, __builtin_shufflevector(four, four, 2, 3, 0, 1, 6, 7, 4, 5));
+template <class Number>
+auto SmallestLane(const Number& v) {
+  const auto least = [](const Number& a, const Number& b) { return a < b ? a : b; };
+  const Number four = least(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3));
+  const Number two = least(four, __builtin_shufflevector(four, four, 2, 3, 0, 1, 6, 7, 4, 5));
   return least(two, __builtin_shufflevector(two, two, 1, 0, 3, 2, 5, 4, 7, 6))[0];
 }
 
+// Whether a mask is set in any lane.
+template <class Mask>
+bool Any(const Mask& mask) {
+  return SmallestLane(mask) != 0;
+}
+
+// In pairs of four, of two and of one apart.
+template <class Number>
+auto SumOfLanes(const Number& v) {
+  const Number four = v + __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3);
+  const Number two = four + __builtin_shufflevector(four, four, 2, 3, 0, 1, 6, 7, 4, 5);
+  return (two + __builtin_shufflevector(two, two, 1, 0, 3, 2, 5, 4, 7, 6))[0];
+}
+
 // The eight numbers of a column that begin at index `first`.
-template <class Lanes, class Scalar>
-Lanes LoadLanes(const std::vector<Scalar>& column, int first) {
-  Lanes lanes;
+template <class Number, class Scalar>
+Number LoadLanes(const std::vector<Scalar>& column, int first) {
+  Number lanes;
   std::memcpy(&lanes, &column[first], sizeof lanes);
   return lanes;
+}
+
+// The coordinates of eight points.
+struct PointLanes {
+  FloatLanes x, y, z;
+};
+
+// Of points that lie side by side, three numbers each.
+inline PointLanes LoadPoints(const float* xyz) {
+  FloatLanes a, b, c;  // x y z x y z x y | z x y z x y z x | y z x y z x y z
+  std::memcpy(&a, xyz, sizeof a);
+  std::memcpy(&b, xyz + kLanes, sizeof b);
+  std::memcpy(&c, xyz + 2 * kLanes, sizeof c);
+  const FloatLanes x = __builtin_shufflevector(a, b, 0, 3, 6, 9, 12, 15, 0, 0);
+  const FloatLanes y = __builtin_shufflevector(a, b, 1, 4, 7, 10, 13, 0, 0, 0);
+  const FloatLanes z = __builtin_shufflevector(a, b, 2, 5, 8, 11, 14, 0, 0, 0);
+  return {__builtin_shufflevector(x, c, 0, 1, 2, 3, 4, 5, 10, 13),
+          __builtin_shufflevector(y, c, 0, 1, 2, 3, 4, 8, 11, 14),
+          __builtin_shufflevector(z, c, 0, 1, 2, 3, 4, 9, 12, 15)};
 }
 
 }  // namespace vitruvia

@@ -28,6 +28,21 @@ void BlockNormalEquations::AddRow(std::span<const Entry> entries, double residua
   energy_ += weight * residual * residual;
 }
 
+void BlockNormalEquations::AddRows(std::span<const int> blocks, const RowSums& sums) {
+  const int size = kBlockSize * static_cast<int>(blocks.size());
+  const auto unknown = [&](int i) { return kBlockSize * blocks[i / kBlockSize] + i % kBlockSize; };
+  int entry = 0;
+  for (int a = 0; a < size; ++a) {
+    const int row = unknown(a);
+    gradient_[row] += sums.gradient[a];
+    for (int b = a; b < size; ++b) {
+      const int column = unknown(b);
+      hessian_(std::min(row, column), std::max(row, column)) += sums.hessian[entry++];
+    }
+  }
+  energy_ += sums.energy;
+}
+
 void BlockNormalEquations::AddDamping(double value) { hessian_.diagonal().array() += value; }
 
 void BlockNormalEquations::Symmetrize() {

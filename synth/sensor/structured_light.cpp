@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "synth/sensor/measured_box.h"
 #include "synth/sensor/shared_noise.h"
 #include "synth/sensor/surface_angle.h"
 
@@ -51,23 +52,38 @@ class ProjectorRow {
   std::vector<float> nearest_;
 };
 
-// Random draws for every pixel, so that no setting changes the noise of other pixels.
+// Random draws for every pixel, so that no setting changes the noise of other pixels. Those of
+// pixels outside of the box are not needed and hold 0.
 struct PatternDraws {
   Image<double> across, down, along;  // standard normal
   Image<double> luck;                 // even in [0, 1)
 };
 
-PatternDraws DrawPatternNoise(int width, int height, int shared_px, RandomStream& random) {
-  const Image<double> empty(width, height);
+PatternDraws DrawPatternNoise(const DepthImage& depth, const PixelBox& box, int shared_px,
+                              RandomStream& random) {
+  const Image<double> empty(depth.width(), depth.height());
   PatternDraws draws{empty, empty, empty, empty};
-  for (std::size_t i = 0; i < empty.pixels().size(); ++i) {
-    draws.across.pixels()[i] = random.Normal();
-    draws.down.pixels()[i] = random.Normal();
-    draws.along.pixels()[i] = random.Normal();
-    draws.luck.pixels()[i] = random.Uniform();
+  const PixelBox shared = box.Grown(shared_px, depth);
+  NormalDraws normals(random);
+  for (int v = 0; v < depth.height(); ++v) {
+    for (int u = 0; u < depth.width(); ++u) {
+      const bool is_inside = box.Contains(u, v);
+      draws.across(u, v) = normals.Next(is_inside);
+      draws.down(u, v) = normals.Next(is_inside);
+      draws.along(u, v) = normals.Next(shared.Contains(u, v));
+      draws.luck(u, v) = random.Uniform();
+    }
   }
   draws.along = SharedNoise(draws.along, shared_px);
   return draws;
+}
+
+// An empty pixel measures an edge that is displaced onto it.
+PixelBox BoxOfDisplacedEdges(const DepthImage& depth, const StructuredLightSettings& settings,
+                             double pixels_per_native) {
+  constexpr double kLargestNormal = 8.6;  // √(2 · 53 ln 2), of a uniform number of 53 bits
+  const double farthest_px = kLargestNormal * LateralDeviationPx(settings, 0.0) * pixels_per_native;
+  return MeasuredBox(depth, static_cast<int>(std::ceil(farthest_px)));
 }
 
 }  // namespace
@@ -228,16 +244,16 @@ MaskImage ProjectorShadow(const DepthImage& depth, const PinholeCamera& camera,
 DepthImage MeasureByStructuredLight(const DepthImage& true_depth, const PinholeCamera& camera,
                                     const StructuredLightSettings& settings, int shared_px,
                                     RandomStream& random) {
-  const PatternDraws draws =
-      DrawPatternNoise(true_depth.width(), true_depth.height(), shared_px, random);
+  const double pixels_per_native = camera.fx / settings.native_focal_px;
+  const PixelBox box = BoxOfDisplacedEdges(true_depth, settings, pixels_per_native);
+  const PatternDraws draws = DrawPatternNoise(true_depth, box, shared_px, random);
   const Image<float> angles = IncidenceAngles(true_depth, camera);
   const MaskImage shadow = ProjectorShadow(true_depth, camera, settings);
-  const double pixels_per_native = camera.fx / settings.native_focal_px;
   const double max_angle_rad = settings.max_angle_deg * std::numbers::pi / 180.0;
 
   DepthImage measured(true_depth.width(), true_depth.height());
-  for (int v = 0; v < true_depth.height(); ++v) {
-    for (int u = 0; u < true_depth.width(); ++u) {
+  for (int v = box.top; v < box.bottom; ++v) {
+    for (int u = box.left; u < box.right; ++u) {
       // An edge is displaced laterally. Within a surface the displacement is not applied, because
       // the published deviation of depth already includes its effect.
       int from_u = u, from_v = v;
@@ -250,8 +266,8 @@ DepthImage MeasureByStructuredLight(const DepthImage& true_depth, const PinholeC
         from_v = moved_v;
       }
       const double z = true_depth(from_u, from_v), angle = angles(from_u, from_v);
-      if (!(z >= settings.min_depth_m && z <= settings.max_depth_m) || angle > max_angle_rad ||
-          shadow(from_u, from_v) != 0 ||
+      if (!(z > 0 && z >= settings.min_depth_m && z <= settings.max_depth_m) ||
+          angle > max_angle_rad || shadow(from_u, from_v) != 0 ||
           (draws.luck(u, v) < settings.edge_loss && IsAtEdge(true_depth, from_u, from_v))) {
         continue;
       }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "synth/sensor/measured_box.h"
 #include "synth/sensor/shared_noise.h"
 #include "synth/sensor/surface_angle.h"
 
@@ -38,19 +39,25 @@ Meeting SurfacesAt(const DepthImage& depth, int u, int v, float reach_m) {
   return meeting;
 }
 
-// Random draws for every pixel, so that no setting changes the noise of other pixels.
+// Random draws for every pixel, so that no setting changes the noise of other pixels. Normal ones
+// of pixels outside of the box are not needed and hold 0.
 struct PhaseDraws {
   Image<double> along;          // standard normal
   Image<double> luck, mixture;  // even in [0, 1)
 };
 
-PhaseDraws DrawPhaseNoise(int width, int height, int shared_px, RandomStream& random) {
-  const Image<double> empty(width, height);
+PhaseDraws DrawPhaseNoise(const DepthImage& depth, const PixelBox& box, int shared_px,
+                          RandomStream& random) {
+  const Image<double> empty(depth.width(), depth.height());
   PhaseDraws draws{empty, empty, empty};
-  for (std::size_t i = 0; i < empty.pixels().size(); ++i) {
-    draws.along.pixels()[i] = random.Normal();
-    draws.luck.pixels()[i] = random.Uniform();
-    draws.mixture.pixels()[i] = random.Uniform();
+  const PixelBox shared = box.Grown(shared_px, depth);
+  NormalDraws normals(random);
+  for (int v = 0; v < depth.height(); ++v) {
+    for (int u = 0; u < depth.width(); ++u) {
+      draws.along(u, v) = normals.Next(shared.Contains(u, v));
+      draws.luck(u, v) = random.Uniform();
+      draws.mixture(u, v) = random.Uniform();
+    }
   }
   draws.along = SharedNoise(draws.along, shared_px);
   return draws;
@@ -146,13 +153,13 @@ double AxialDeviation(const TimeOfFlightSettings& s, double z_m, double angle_ra
 DepthImage MeasureByTimeOfFlight(const DepthImage& true_depth, const PinholeCamera& camera,
                                  const TimeOfFlightSettings& settings, int shared_px,
                                  RandomStream& random) {
-  const PhaseDraws draws =
-      DrawPhaseNoise(true_depth.width(), true_depth.height(), shared_px, random);
+  const PixelBox box = MeasuredBox(true_depth, 1);  // flying pixels lie beside it
+  const PhaseDraws draws = DrawPhaseNoise(true_depth, box, shared_px, random);
   const Image<float> angles = IncidenceAngles(true_depth, camera);
   const double max_angle_rad = settings.max_angle_deg * std::numbers::pi / 180.0;
   DepthImage measured(true_depth.width(), true_depth.height());
-  for (int v = 0; v < true_depth.height(); ++v) {
-    for (int u = 0; u < true_depth.width(); ++u) {
+  for (int v = box.top; v < box.bottom; ++v) {
+    for (int u = box.left; u < box.right; ++u) {
       float z = true_depth(u, v);
       double angle = angles(u, v);
       if (draws.luck(u, v) < settings.flying_share && IsAtEdge(true_depth, u, v)) {
@@ -162,7 +169,8 @@ DepthImage MeasureByTimeOfFlight(const DepthImage& true_depth, const PinholeCame
             static_cast<float>(draws.mixture(u, v)) * (surfaces.farthest - surfaces.nearest);
         angle = 0.0;  // a mixture of signals, without a grazing angle
       }
-      if (!(z >= settings.min_depth_m && z <= settings.max_depth_m) || angle > max_angle_rad) {
+      if (!(z > 0 && z >= settings.min_depth_m && z <= settings.max_depth_m) ||
+          angle > max_angle_rad) {
         continue;
       }
       const Vector3<double> ray = camera.Unproject<double>(u, v, 1.0);

@@ -155,6 +155,29 @@ TEST(SkinLinear, IsTheWeightedSumOfTheBones) {
   }
 }
 
+// The blend of the bones' matrices, one vertex after the other: the reference of the version that
+// works on columns.
+TEST(SkinLinear, GivesTheBitsOfBlendedMatrices) {
+  using Matrix34f = Eigen::Matrix<float, 3, 4>;
+  const BodyModel body = TinyBody(2);
+  RandomStream random(5, "matrices");
+  BoneTransforms bones;
+  std::vector<Matrix34f> matrices(kBoneCount);
+  for (int b = 0; b < kBoneCount; ++b) {
+    bones.push_back(RandomRigid(random));
+    matrices[b] << bones[b].rotation.cast<float>(), bones[b].translation.cast<float>();
+  }
+  std::vector<Vector3f> posed;
+  SkinLinear(body.rest.vertices, body.weights, bones, posed);
+  for (std::size_t v = 0; v < posed.size(); ++v) {
+    Matrix34f blend = Matrix34f::Zero();
+    for (int k = 0; k < kMaxInfluences; ++k)
+      blend += body.weights.weights[v][k] * matrices[body.weights.bones[v][k]];
+    const Vector3f expected = blend.leftCols<3>() * body.rest.vertices[v] + blend.col(3);
+    EXPECT_EQ(posed[v], expected) << "vertex " << v;
+  }
+}
+
 TEST(Twist, OfHalfATurnCollapsesLinearlyButNotInDualQuaternions) {
   const std::vector<Vector3f> ring = Ring();
   const BoneTransforms bones{TurnAboutX(0.0), TurnAboutX(180.0)};

@@ -1,6 +1,7 @@
 #include "math/lanes.h"
 
 #include <cmath>
+#include <numeric>
 
 #include <gtest/gtest.h>
 
@@ -27,6 +28,17 @@ TEST(Lanes, GiveMasksExtremesAndLoads) {
   const std::vector<int> column = {9, 8, 7, 6, 5, 4, 3, 2, 1, 0};
   const auto loaded = LoadLanes<IntLanes>(column, 2);
   for (int lane = 0; lane < kLanes; ++lane) EXPECT_EQ(loaded[lane], 7 - lane);
+}
+
+TEST(Lanes, GatherTheCoordinatesOfPoints) {
+  std::vector<float> xyz(3 * kLanes);
+  std::iota(xyz.begin(), xyz.end(), 0.0f);
+  const PointLanes points = LoadPoints(xyz.data());
+  for (int lane = 0; lane < kLanes; ++lane) {
+    EXPECT_EQ(points.x[lane], xyz[3 * lane]);
+    EXPECT_EQ(points.y[lane], xyz[3 * lane + 1]);
+    EXPECT_EQ(points.z[lane], xyz[3 * lane + 2]);
+  }
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "solver/block_normal_equations.h"
 
+#include <array>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -7,6 +8,7 @@
 
 #include "core/random.h"
 #include "solver/conjugate_gradients.h"
+#include "solver/lane_rows.h"
 #include "support/ceres_adaptor.h"
 
 namespace vitruvia {
@@ -48,6 +50,36 @@ TEST(BlockNormalEquations, AreTheProductsOfTheDenseJacobian) {
   EXPECT_TRUE(p.equations.hessian().isApprox(p.jacobian.transpose() * weighted, 1e-12));
   EXPECT_TRUE(p.equations.gradient().isApprox(weighted.transpose() * p.residual, 1e-12));
   EXPECT_NEAR(p.equations.energy(), p.residual.dot(p.weight.cwiseProduct(p.residual)), 1e-12);
+}
+
+// Rows of two blocks, eight at a time, against one after the other.
+TEST(LaneRows, AddUpToWhatSingleRowsDo) {
+  constexpr std::array kOf = {2, 0};  // not in ascending order
+  BlockNormalEquations single(kBlocks), lanes(kBlocks);
+  LaneRows<2, double> rows;
+  RandomStream random(3, "lane rows");
+  for (int group = 0; group < 5; ++group) {
+    LaneRows<2, double>::Row jacobian, weighted;
+    DoubleLanes residual, weight;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      residual[lane] = random.Normal();
+      weight[lane] = random.Uniform();
+      std::array<BlockNormalEquations::Entry, 2> entries;
+      for (int i = 0; i < 2 * kBlockSize; ++i) {
+        entries[i / kBlockSize].block = kOf[i / kBlockSize];
+        jacobian[i][lane] = entries[i / kBlockSize].jacobian[i % kBlockSize] = random.Normal();
+        weighted[i][lane] = weight[lane] * jacobian[i][lane];
+      }
+      single.AddRow(entries, residual[lane], weight[lane]);
+    }
+    rows.Add(jacobian, residual, weighted, weight * residual);
+  }
+  lanes.AddRows(kOf, rows.Sums());
+  single.Symmetrize();
+  lanes.Symmetrize();
+  EXPECT_TRUE(lanes.hessian().isApprox(single.hessian(), 1e-13));
+  EXPECT_TRUE(lanes.gradient().isApprox(single.gradient(), 1e-13));
+  EXPECT_NEAR(lanes.energy(), single.energy(), 1e-13 * single.energy());
 }
 
 TEST(BlockNormalEquations, ResetForgetsAndDampingIsOnTheDiagonal) {

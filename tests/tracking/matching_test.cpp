@@ -116,6 +116,34 @@ TEST(FindVisibleVertices, FindsThoseOnTheRenderedSurface) {
   EXPECT_TRUE(std::find(visible.begin(), visible.end(), 9) == visible.end());
 }
 
+// Eight vertices are looked up side by side; the reference asks the camera for each.
+TEST(FindVisibleVertices, LooksUpThePixelOfTheCamera) {
+  const PinholeCamera camera = SmallCamera();
+  DepthImage rendered(camera.width, camera.height);
+  for (int u = 3; u < camera.width; ++u) {
+    for (int v = 0; v < camera.height; ++v) rendered(u, v) = 1.0f;
+  }
+  RandomStream random(1, "vertices");
+  for (int count = 0; count < 40; ++count) {
+    std::vector<Vector3f> vertices;
+    for (int i = 0; i < count; ++i) {  // some out of view or behind the camera
+      vertices.push_back({static_cast<float>(random.Uniform(-1.0, 1.0)),
+                          static_cast<float>(random.Uniform(-1.0, 1.0)),
+                          static_cast<float>(random.Uniform(0.99, 1.01))});
+      if (i % 7 == 3) vertices.back().z() *= -1.0f;
+    }
+    std::vector<int> visible, expected;
+    FindVisibleVertices(vertices, rendered, camera, 0.005f, visible);
+    for (int i = 0; i < count; ++i) {
+      const auto pixel = camera.PixelOf(vertices[i]);
+      if (!pixel) continue;
+      const float z = rendered(pixel->u, pixel->v);
+      if (z > 0.0f && std::abs(vertices[i].z() - z) < 0.005f) expected.push_back(i);
+    }
+    EXPECT_EQ(visible, expected) << count << " vertices";
+  }
+}
+
 TEST(Classification, SortsVerticesAndPointsByWhatExplainsThem) {
   const PinholeCamera camera = SmallCamera();
   const NearnessSettings nearness{0.05f, 1, 0.02f};

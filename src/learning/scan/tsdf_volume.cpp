@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "core/error.h"
+#include "math/lanes.h"
 #include "math/rigid.h"
 
 namespace vitruvia {
@@ -111,6 +113,67 @@ void TsdfVolume::MakeRoom(const PointMap& seen, const Rigidd& subject_from_camer
   cells_.resize(static_cast<std::size_t>(block_count()) * kBlockVoxels);
 }
 
+namespace {
+
+// base[index] in each lane.
+template <class Numbers, class Scalar>
+Numbers Gathered(const Scalar* base, const IntLanes& index) {
+  Numbers numbers;
+  for (int lane = 0; lane < kLanes; ++lane) numbers[lane] = base[index[lane]];
+  return numbers;
+}
+
+// The eight voxels of a row, on their way into the image.
+struct VoxelRows {
+  struct Row {
+    FloatLanes z, u, v;
+    IntLanes in_view;
+  };
+
+  VoxelRows(const Vector3f& step, const PinholeCamera& camera, int width, int height)
+      : steps_x(kSteps * step.x()),
+        steps_y(kSteps * step.y()),
+        steps_z(kSteps * step.z()),
+        fx(static_cast<float>(camera.fx)),
+        fy(static_cast<float>(camera.fy)),
+        cx(static_cast<float>(camera.cx)),
+        cy(static_cast<float>(camera.cy)),
+        u_end(static_cast<float>(width) - 0.5f),
+        v_end(static_cast<float>(height) - 0.5f) {}
+
+  Row At(const Vector3f& first) const {
+    const FloatLanes z = first.z() + steps_z, inverse = 1.0f / z;
+    const FloatLanes u = fx * (first.x() + steps_x) * inverse + cx;
+    const FloatLanes v = fy * (first.y() + steps_y) * inverse + cy;
+    return {z, u, v, (z > 0.0f) & (u >= -0.5f) & (v >= -0.5f) & (u < u_end) & (v < v_end)};
+  }
+
+  static constexpr FloatLanes kSteps = {0, 1, 2, 3, 4, 5, 6, 7};
+  FloatLanes steps_x, steps_y, steps_z;
+  float fx, fy, cx, cy, u_end, v_end;
+};
+
+// Eight cells, whose distances and weights lie alternately.
+struct CellLanes {
+  FloatLanes distance, weight;
+
+  explicit CellLanes(const float* cells) {
+    FloatLanes a, b;
+    std::memcpy(&a, cells, sizeof a);
+    std::memcpy(&b, cells + kLanes, sizeof b);
+    distance = __builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14);
+    weight = __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15);
+  }
+  void Store(float* cells) const {
+    const FloatLanes a = __builtin_shufflevector(distance, weight, 0, 8, 1, 9, 2, 10, 3, 11);
+    const FloatLanes b = __builtin_shufflevector(distance, weight, 4, 12, 5, 13, 6, 14, 7, 15);
+    std::memcpy(cells, &a, sizeof a);
+    std::memcpy(cells + kLanes, &b, sizeof b);
+  }
+};
+
+}  // namespace
+
 // Data of each pixel for integration.
 struct TsdfVolume::View {
   struct Pixel {
@@ -125,7 +188,7 @@ struct TsdfVolume::View {
   PinholeCamera camera;
   Rigidf camera_from_subject;
   Image<Pixel> pixels;
-  Image<std::uint8_t> smooth;  // 1: this pixel and those right, below and both are one surface
+  Image<std::int32_t> smooth;  // −1: this pixel and those right, below and both are one surface
   int tile_columns = 0;
   std::vector<float> farthest;  // depth of the usable pixels of each tile; 0: none
 
@@ -143,7 +206,7 @@ struct TsdfVolume::View {
       for (int u = 0; u < depth.width(); ++u) {
         if (!seen.Has(u, v)) continue;
         const float z = depth(u, v);
-        smooth(u, v) = IsSmooth(depth, u, v, jump_m) ? 1 : 0;
+        smooth(u, v) = IsSmooth(depth, u, v, jump_m) ? -1 : 0;
         const Vector3f ray = seen.points(u, v) / seen.points(u, v).z();
         const float across = -seen.normals(u, v).dot(ray), ray_length = ray.norm();
         const float cosine = across / ray_length;
@@ -165,17 +228,27 @@ struct TsdfVolume::View {
     return low > 0.0f && high - low <= jump_m;
   }
 
-  // Depth between pixel centres: bilinear within a surface, the nearest pixel's elsewhere.
-  float DepthAt(float u, float v, const Pixel& nearest) const {
-    if (u < 0.0f || v < 0.0f) return nearest.depth_m;
-    const int u0 = static_cast<int>(u), v0 = static_cast<int>(v);
-    if (smooth(u0, v0) == 0) return nearest.depth_m;
-    const float fu = u - static_cast<float>(u0), fv = v - static_cast<float>(v0);
-    const float* above = &depth(u0, v0);
+  // Depth between pixel centres: bilinear within a surface, the nearest pixel's elsewhere. Only
+  // lanes that are in view may be used.
+  FloatLanes DepthAt(const FloatLanes& u, const FloatLanes& v, const FloatLanes& nearest_m,
+                     const IntLanes& in_view) const {
+    const IntLanes inside = in_view & (u >= 0.0f) & (v >= 0.0f);
+    const IntLanes u0 = Truncate(inside ? u : FloatLanes{});
+    const IntLanes v0 = Truncate(inside ? v : FloatLanes{});
+    const IntLanes pixel = v0 * depth.width() + u0;
+    const IntLanes is_smooth = inside & Gathered<IntLanes>(smooth.pixels().data(), pixel);
+    if (!Any(is_smooth)) return nearest_m;
+    const IntLanes from = is_smooth ? pixel : IntLanes{};  // with neighbours right and below
+    const FloatLanes fu = u - __builtin_convertvector(u0, FloatLanes);
+    const FloatLanes fv = v - __builtin_convertvector(v0, FloatLanes);
+    const float* above = depth.pixels().data();
     const float* below = above + depth.width();
-    const float top = above[0] + fu * (above[1] - above[0]);
-    const float bottom = below[0] + fu * (below[1] - below[0]);
-    return top + fv * (bottom - top);
+    const auto left_above = Gathered<FloatLanes>(above, from);
+    const auto left_below = Gathered<FloatLanes>(below, from);
+    const FloatLanes top = left_above + fu * (Gathered<FloatLanes>(above + 1, from) - left_above);
+    const FloatLanes bottom =
+        left_below + fu * (Gathered<FloatLanes>(below + 1, from) - left_below);
+    return is_smooth ? top + fv * (bottom - top) : nearest_m;
   }
 
   // Whether any pixel can change a ball's voxels: it is in view and not wholly behind what is seen.
@@ -204,28 +277,8 @@ struct TsdfVolume::View {
   static constexpr float kPerspective = 1.3f;  // a ball's outline away from the image's middle
 };
 
-namespace {
-
-// Eight neighbouring voxels on their way into the image.
-struct VoxelRow {
-  std::array<float, kSide> z, u, v;
-
-  VoxelRow(const Vector3f& first, const Vector3f& step, const PinholeCamera& camera) {
-    const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
-    const auto cx = static_cast<float>(camera.cx), cy = static_cast<float>(camera.cy);
-    for (int i = 0; i < kSide; ++i) {
-      const auto steps = static_cast<float>(i);
-      const float depth = first.z() + steps * step.z(), inverse = 1.0f / depth;
-      z[i] = depth;
-      u[i] = fx * (first.x() + steps * step.x()) * inverse + cx;
-      v[i] = fy * (first.y() + steps * step.y()) * inverse + cy;
-    }
-  }
-};
-
-}  // namespace
-
 void TsdfVolume::IntegrateBlock(int block, const View& view) {
+  static_assert(kSide == kLanes && sizeof(Cell) == 2 * sizeof(float));
   const Lattice& corner = block_corners_[static_cast<std::size_t>(block)];
   const Vector3f low = FromLattice({static_cast<float>(corner[0]), static_cast<float>(corner[1]),
                                     static_cast<float>(corner[2])});
@@ -235,32 +288,40 @@ void TsdfVolume::IntegrateBlock(int block, const View& view) {
 
   const Vector3f first = view.camera_from_subject * low;
   const Matrix3<float> axes = view.camera_from_subject.rotation * voxel_m_;
-  const float u_end = static_cast<float>(view.pixels.width()) - 0.5f;
-  const float v_end = static_cast<float>(view.pixels.height()) - 0.5f;
+  const VoxelRows rows(axes.col(0), view.camera, view.pixels.width(), view.pixels.height());
   const auto max_weight = static_cast<float>(settings_.max_weight);
   const float per_truncation = 1.0f / truncation_m_;
-  Cell* cell = cells_.data() + static_cast<std::size_t>(block) * kBlockVoxels;
-  for (int yz = 0; yz < kSide * kSide; ++yz) {
+  Cell* cells = cells_.data() + static_cast<std::size_t>(block) * kBlockVoxels;
+  for (int yz = 0; yz < kSide * kSide; ++yz, cells += kSide) {
     const Vector3f start = first + static_cast<float>(yz & kSideMask) * axes.col(1) +
                            static_cast<float>(yz >> kSideBits) * axes.col(2);
-    const VoxelRow row(start, axes.col(0), view.camera);
-    for (int x = 0; x < kSide; ++x, ++cell) {
-      const float u = row.u[x], v = row.v[x];
-      if (!(row.z[x] > 0.0f && u >= -0.5f && v >= -0.5f && u < u_end && v < v_end)) continue;
-      // Not negative, so that cutting off rounds. NOLINTNEXTLINE(bugprone-incorrect-roundings)
-      const int at_u = static_cast<int>(u + 0.5f), at_v = static_cast<int>(v + 0.5f);
-      const View::Pixel& pixel = view.pixels(at_u, at_v);
-      if (pixel.across == 0.0f) continue;
-      const float d = (view.DepthAt(u, v, pixel) - row.z[x]) * pixel.across * per_truncation;
-      const float behind = -d / pixel.behind;  // 1: the end of what counts
-      if (behind >= 1.0f) continue;
-      const float fade =
-          behind > kFullWeightBehind ? (1.0f - behind) / (1.0f - kFullWeightBehind) : 1.0f;
-      const float w = pixel.weight * fade;
-      const float sum = cell->weight + w;
-      cell->distance = (cell->distance * cell->weight + std::min(d, 1.0f) * w) / sum;
-      cell->weight = std::min(sum, max_weight);
-    }
+    const auto [z, u, v, in_view] = rows.At(start);
+    if (!Any(in_view)) continue;
+    // Not negative where in view, so that cutting off rounds.
+    const IntLanes at_u = Truncate(in_view ? u + 0.5f : FloatLanes{});
+    const IntLanes at_v = Truncate(in_view ? v + 0.5f : FloatLanes{});
+    const IntLanes pixel = at_v * view.pixels.width() + at_u;
+    const auto* pixels = reinterpret_cast<const float*>(view.pixels.pixels().data());
+    const IntLanes number = pixel * static_cast<int>(sizeof(View::Pixel) / sizeof(float));
+    const auto across = Gathered<FloatLanes>(pixels + 1, number);
+    const IntLanes usable = in_view & (across != 0.0f);
+    if (!Any(usable)) continue;
+    const auto depth = view.DepthAt(u, v, Gathered<FloatLanes>(pixels, number), in_view);
+    const FloatLanes d = (depth - z) * across * per_truncation;
+    // 1: the end of what counts.
+    const FloatLanes behind = -d / Gathered<FloatLanes>(pixels + 3, number);
+    const IntLanes counts = usable & ~(behind >= 1.0f);
+    if (!Any(counts)) continue;
+    const FloatLanes one = FloatLanes{} + 1.0f;
+    const FloatLanes fade =
+        behind > kFullWeightBehind ? (1.0f - behind) / (1.0f - kFullWeightBehind) : one;
+    const FloatLanes w = Gathered<FloatLanes>(pixels + 2, number) * fade;
+    CellLanes row(reinterpret_cast<const float*>(cells));
+    const FloatLanes sum = row.weight + w;
+    const FloatLanes distance = (row.distance * row.weight + Min(d, one) * w) / sum;
+    row.distance = counts ? distance : row.distance;
+    row.weight = counts ? Min(sum, FloatLanes{} + max_weight) : row.weight;
+    row.Store(reinterpret_cast<float*>(cells));
   }
 }
 

@@ -190,7 +190,10 @@ int Association::NearestTo(const Vector3f& point, int pixel,
   for (int r = row - first; r <= row + first; ++r) {
     ScanRow(point, r, column - first, column + first, best);
   }
-  int reach = radius();
+  // Without a square root where the answer is no more than that.
+  const float enough_m = (static_cast<float>(first) + 0.5f - kRounding_px) / px_per_m;
+  const bool is_near = Bits(best.squared < enough_m * enough_m) != 0;
+  int reach = is_near ? first : radius();
   for (int m = 0; reach > first && m <= reach; ++m) {
     ScanRow(point, row - m, column - reach, column + reach, best);
     if (m > 0) ScanRow(point, row + m, column - reach, column + reach, best);

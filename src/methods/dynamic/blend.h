@@ -1,17 +1,19 @@
 // The blend of a patch's dual quaternions for eight vertices (paper B, eq. 3).
 #pragma once
 
+#include <cstring>
+
 #include "methods/dynamic/surface.h"
 
 namespace vitruvia::dynamic {
 
 template <class Scalar>
 Lanes<Scalar> Load(const std::vector<Scalar>& column, int slot) {
-  return Eigen::Map<const Lanes<Scalar>>(column.data() + slot);
+  return LoadLanes<Lanes<Scalar>>(column, slot);
 }
 template <class Scalar>
 void Store(const Lanes<Scalar>& values, int slot, std::vector<Scalar>& column) {
-  Eigen::Map<Lanes<Scalar>>(column.data() + slot) = values;
+  std::memcpy(&column[slot], &values, sizeof values);
 }
 
 // Eight 3-vectors.
@@ -20,13 +22,13 @@ struct LaneVector {
   Lanes<Scalar> x, y, z;
 
   static LaneVector Load(const Columns<Scalar>& columns, int slot) {
-    return {dynamic::Load(columns.x, slot), dynamic::Load(columns.y, slot),
-            dynamic::Load(columns.z, slot)};
+    return {dynamic::Load<Scalar>(columns.x, slot), dynamic::Load<Scalar>(columns.y, slot),
+            dynamic::Load<Scalar>(columns.z, slot)};
   }
   void Store(int slot, Columns<Scalar>& columns) const {
-    dynamic::Store(x, slot, columns.x);
-    dynamic::Store(y, slot, columns.y);
-    dynamic::Store(z, slot, columns.z);
+    dynamic::Store<Scalar>(x, slot, columns.x);
+    dynamic::Store<Scalar>(y, slot, columns.y);
+    dynamic::Store<Scalar>(z, slot, columns.z);
   }
 };
 
@@ -68,13 +70,13 @@ struct LaneBlend {
   static LaneBlend Of(const std::array<DualQuaternion<Scalar>, kMaxInfluences>& q,
                       const std::array<std::vector<Scalar>, kMaxInfluences>& weights, int slot) {
     LaneBlend blend;
-    const Lanes<Scalar> first = Load(weights[0], slot);
+    const Lanes<Scalar> first = Load<Scalar>(weights[0], slot);
     blend.a = first * q[0].real.w();
     blend.u = {first * q[0].real.x(), first * q[0].real.y(), first * q[0].real.z()};
     blend.b = first * q[0].dual.w();
     blend.d = {first * q[0].dual.x(), first * q[0].dual.y(), first * q[0].dual.z()};
     for (int k = 1; k < N; ++k) {
-      const Lanes<Scalar> w = Load(weights[k], slot);
+      const Lanes<Scalar> w = Load<Scalar>(weights[k], slot);
       blend.a += w * q[k].real.w();
       blend.u.x += w * q[k].real.x();
       blend.u.y += w * q[k].real.y();
@@ -84,7 +86,7 @@ struct LaneBlend {
       blend.d.y += w * q[k].dual.y();
       blend.d.z += w * q[k].dual.z();
     }
-    blend.inverse_square = (blend.a * blend.a + Dot(blend.u, blend.u)).inverse();
+    blend.inverse_square = Scalar(1) / (blend.a * blend.a + Dot(blend.u, blend.u));
     return blend;
   }
 

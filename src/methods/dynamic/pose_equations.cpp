@@ -4,6 +4,7 @@
 
 #include "math/rigid.h"
 #include "methods/dynamic/blend.h"
+#include "solver/lane_rows.h"
 
 namespace vitruvia::dynamic {
 namespace {
@@ -80,10 +81,8 @@ LinkMotions<Scalar> LinkMotionsOf(const TreePose& pose) {
 }
 
 template <class Scalar>
-LinkEquations<Scalar>::LinkEquations(const SurfaceLayout& layout) : sums_(layout.patches.size()) {
-  link_hessian_.resize(kLinkUnknowns, kLinkUnknowns);
-  link_gradient_.resize(kLinkUnknowns);
-}
+LinkEquations<Scalar>::LinkEquations(const SurfaceLayout& layout)
+    : sums_(layout.patches.size()), links_(kBoneCount) {}
 
 template <class Scalar>
 template <int N>
@@ -92,49 +91,44 @@ void LinkEquations<Scalar>::AddLanes(const Patch& patch, const Surface<Scalar>& 
                                      const Observations<Scalar>& observations,
                                      PatchSums& sums) const {
   using Lane = Lanes<Scalar>;
-  constexpr int kRow = kTwistSize * N;
-  std::array<Lane, kRow*(kRow + 1) / 2> hessian;
-  std::array<Lane, kRow> gradient, row;
-  for (Lane& lane : hessian) lane.setZero();
-  for (Lane& lane : gradient) lane.setZero();
-  Lane energy = Lane::Zero();
+  LaneRows<N, Scalar> rows;
+  typename LaneRows<N, Scalar>::Row row;
   sums.residuals = 0;
   const auto q = InOneHemisphere(patch, motions.origin_from_rest);
   for (int slot = patch.begin; slot < patch.end; slot += kLanes) {
-    const Eigen::Map<const Eigen::Array<Scalar, 4, kLanes>> observed(
-        observations.sums.data() + 4 * static_cast<std::size_t>(slot));
-    const Lane count = observed.row(3).transpose();
-    const auto has_points = (count > Scalar(0)).eval();
-    if (!has_points.any()) continue;
-    sums.residuals += static_cast<int>(has_points.count());
-    const Lane inverse_count = has_points.select(count, Scalar(1)).inverse();
+    Lane mean_x, mean_y, mean_z, count;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const Scalar* sum = &observations.sums[4 * static_cast<std::size_t>(slot + lane)];
+      mean_x[lane] = sum[0];
+      mean_y[lane] = sum[1];
+      mean_z[lane] = sum[2];
+      count[lane] = sum[3];
+    }
+    const auto has_points = count > Scalar(0);
+    const Lane mask = has_points ? Lane{} + Scalar(1) : Lane{};
+    const auto observed = static_cast<int>(SumOfLanes(mask));
+    if (observed == 0) continue;
+    sums.residuals += observed;
+    const Lane inverse_count = Scalar(1) / (has_points ? count : Lane{} + Scalar(1));
+    mean_x *= inverse_count;
+    mean_y *= inverse_count;
+    mean_z *= inverse_count;
     const auto blend = LaneBlend<Scalar>::template Of<N>(q, s.weights, slot);
     const auto v = LaneVector<Scalar>::Load(s.posed, slot);
     auto n = LaneVector<Scalar>::Load(s.normals, slot);
     // Vertices that no point chose have no residual: a normal of zero makes r and its row zero.
-    const Lane mask = has_points.template cast<Scalar>();
     n.x *= mask;
     n.y *= mask;
     n.z *= mask;
-    const Lane mean_x = observed.row(0).transpose() * inverse_count;
-    const Lane mean_y = observed.row(1).transpose() * inverse_count;
-    const Lane mean_z = observed.row(2).transpose() * inverse_count;
     const Lane r = n.x * (v.x - mean_x) + n.y * (v.y - mean_y) + n.z * (v.z - mean_z);  // eq. 6
     const LaneVector<Scalar> lever = {v.x - motions.origin.x(), v.y - motions.origin.y(),
                                       v.z - motions.origin.z()};
     const LinkRow<Scalar> link_row(blend, lever, n);
     for (int k = 0; k < N; ++k)
-      link_row.Write(q[k], Load(s.weights[k], slot), &row[kTwistSize * k]);
-    energy += r * r;
-    int entry = 0;
-    for (int a = 0; a < kRow; ++a) {
-      gradient[a] += row[a] * r;
-      for (int b = a; b < kRow; ++b) hessian[entry++] += row[a] * row[b];
-    }
+      link_row.Write(q[k], Load<Scalar>(s.weights[k], slot), &row[kTwistSize * k]);
+    rows.Add(row, r, row, r);
   }
-  for (std::size_t i = 0; i < hessian.size(); ++i) sums.hessian[i] = double{hessian[i].sum()};
-  for (std::size_t i = 0; i < gradient.size(); ++i) sums.gradient[i] = double{gradient[i].sum()};
-  sums.energy = double{energy.sum()};
+  sums.rows = rows.Sums();
 }
 
 template <class Scalar>
@@ -158,30 +152,19 @@ void LinkEquations<Scalar>::AddPatch(int patch, const Surface<Scalar>& surface,
 template <class Scalar>
 void LinkEquations<Scalar>::ReduceToJoints(const SurfaceLayout& layout, const KinematicTree& tree,
                                            const TreePose& pose, PoseEquations& equations) {
-  link_hessian_.setZero();
-  link_gradient_.setZero();
-  equations.energy = 0.0;
+  links_.Reset();
   equations.residuals = 0;
   equations.observed.fill(0);
   for (std::size_t i = 0; i < layout.patches.size(); ++i) {
     const Patch& patch = layout.patches[i];
     const PatchSums& sums = sums_[i];
     if (sums.residuals == 0) continue;
-    const int row_size = kTwistSize * patch.influences;
-    int entry = 0;
-    for (int a = 0; a < row_size; ++a) {
-      const int row = kTwistSize * patch.bones[a / kTwistSize] + a % kTwistSize;
-      link_gradient_[row] += sums.gradient[a];
-      for (int b = a; b < row_size; ++b) {
-        const int column = kTwistSize * patch.bones[b / kTwistSize] + b % kTwistSize;
-        link_hessian_(std::max(row, column), std::min(row, column)) += sums.hessian[entry++];
-      }
-    }
-    equations.energy += sums.energy;
+    links_.AddRows({patch.bones.data(), static_cast<std::size_t>(patch.influences)}, sums.rows);
     equations.residuals += sums.residuals;
     equations.observed[patch.bones[0]] += sums.residuals;
   }
-  link_hessian_.template triangularView<Eigen::StrictlyUpper>() = link_hessian_.transpose();
+  links_.Symmetrize();
+  equations.energy = links_.energy();
   // S: a joint moves every bone down its chain by one and the same twist.
   twists_.setZero(kLinkUnknowns, tree.joint_count());
   for (int bone = 0; bone < kBoneCount; ++bone) {
@@ -189,9 +172,9 @@ void LinkEquations<Scalar>::ReduceToJoints(const SurfaceLayout& layout, const Ki
       twists_.block<kTwistSize, 1>(kTwistSize * bone, joint) = pose.twists[joint];
     }
   }
-  hessian_twists_.noalias() = link_hessian_ * twists_;
+  hessian_twists_.noalias() = links_.hessian() * twists_;
   equations.hessian.noalias() = twists_.transpose() * hessian_twists_;
-  equations.gradient.noalias() = twists_.transpose() * link_gradient_;
+  equations.gradient.noalias() = twists_.transpose() * links_.gradient();
 }
 
 template LinkMotions<float> LinkMotionsOf<float>(const TreePose&);

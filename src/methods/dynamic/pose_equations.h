@@ -13,10 +13,11 @@
 
 #include "methods/dynamic/association.h"
 #include "methods/dynamic/surface.h"
+#include "solver/block_normal_equations.h"
 
 namespace vitruvia::dynamic {
 
-inline constexpr int kTwistSize = 6;
+inline constexpr int kTwistSize = kBlockSize;
 inline constexpr int kLinkUnknowns = kTwistSize * kBoneCount;
 
 struct PoseEquations {
@@ -51,12 +52,8 @@ class LinkEquations {
                       PoseEquations& equations);
 
  private:
-  // Upper triangle of JᵀJ, row after row, then Jᵀr, for the patch's bones in its order.
   struct PatchSums {
-    static constexpr int kMaxRow = kTwistSize * kMaxInfluences;
-    std::array<double, kMaxRow*(kMaxRow + 1) / 2> hessian;
-    std::array<double, kMaxRow> gradient;
-    double energy = 0.0;
+    RowSums rows;  // of the patch's bones in its order
     int residuals = 0;
   };
   template <int N>
@@ -65,10 +62,9 @@ class LinkEquations {
                 PatchSums& sums) const;
 
   std::vector<PatchSums> sums_;
-  Eigen::MatrixXd link_hessian_;  // kLinkUnknowns²
-  Eigen::VectorXd link_gradient_;
+  BlockNormalEquations links_;
   Eigen::MatrixXd twists_;          // S: kLinkUnknowns × joints
-  Eigen::MatrixXd hessian_twists_;  // link_hessian_ S
+  Eigen::MatrixXd hessian_twists_;  // JᵀJ of the links, times S
 };
 
 }  // namespace vitruvia::dynamic

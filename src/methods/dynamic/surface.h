@@ -16,9 +16,6 @@
 
 namespace vitruvia::dynamic {
 
-template <class Scalar>
-using Lanes = Eigen::Array<Scalar, kLanes, 1>;
-
 // Maximum number of slots of a patch, the unit of work, so that threads get equal shares.
 inline constexpr int kMaxPatchSlots = 512;
 

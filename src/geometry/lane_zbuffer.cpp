@@ -1,4 +1,4 @@
-#include "geometry/front_face_zbuffer.h"
+#include "geometry/lane_zbuffer.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@ struct BoxLanes {  // of pixel centres, both ends included
 }  // namespace
 
 // Eight triangles side by side.
-struct FrontFaceZBuffer::TriangleLanes {
+struct LaneZBuffer::TriangleLanes {
   struct CornerLanes {
     FloatLanes u, v, inverse_z;
   };
@@ -58,20 +58,20 @@ struct FrontFaceZBuffer::TriangleLanes {
   }
 };
 
-FrontFaceZBuffer::FrontFaceZBuffer(const PinholeCamera& camera, float near_m)
-    : camera_(camera), near_m_(near_m), depth_(camera.width, camera.height) {}
+LaneZBuffer::LaneZBuffer(Rasterizer faces, const PinholeCamera& camera, float near_m)
+    : faces_(faces), camera_(camera), near_m_(near_m), depth_(camera.width, camera.height) {}
 
-const DepthImage& FrontFaceZBuffer::Render(const std::vector<Vector3f>& vertices_in_camera,
-                                           const std::vector<Triangle>& triangles) & {
+const DepthImage& LaneZBuffer::Render(const std::vector<Vector3f>& vertices_in_camera,
+                                      const std::vector<Triangle>& triangles) & {
   Clear(drawn_);
   Project(vertices_in_camera);
-  CollectFrontFaces(triangles);
-  drawn_ = DrawFrontFaces();
+  CollectDrawn(triangles);
+  drawn_ = Draw();
   Invert(drawn_);
   return depth_;
 }
 
-void FrontFaceZBuffer::Project(const std::vector<Vector3f>& vertices_in_camera) {
+void LaneZBuffer::Project(const std::vector<Vector3f>& vertices_in_camera) {
   corners_.resize(vertices_in_camera.size());
   const auto fx = static_cast<float>(camera_.fx), fy = static_cast<float>(camera_.fy);
   const auto cx = static_cast<float>(camera_.cx), cy = static_cast<float>(camera_.cy);
@@ -83,17 +83,19 @@ void FrontFaceZBuffer::Project(const std::vector<Vector3f>& vertices_in_camera) 
   }
 }
 
-void FrontFaceZBuffer::CollectFrontFaces(const std::vector<Triangle>& triangles) {
-  front_faces_.resize(std::max(front_faces_.size(), triangles.size() + kLanes));
+void LaneZBuffer::CollectDrawn(const std::vector<Triangle>& triangles) {
+  faces_to_draw_.resize(std::max(faces_to_draw_.size(), triangles.size() + kLanes));
   std::size_t count = 0;
   const auto collect = [&](const Triangle* group) {
     const TriangleLanes lanes(corners_, group);
     const BoxLanes boxes = lanes.Boxes(camera_);
     const FloatLanes farthest = Min(Min(lanes.a.inverse_z, lanes.b.inverse_z), lanes.c.inverse_z);
-    const IntLanes drawn = (lanes.Area() < 0.0f) & (boxes.left <= boxes.right) &
-                           (boxes.top <= boxes.bottom) & (farthest > 0.0f);
+    const FloatLanes area = lanes.Area();
+    const IntLanes is_face = faces_ == Rasterizer::kFrontFaces ? area < 0.0f : area != 0.0f;
+    const IntLanes drawn =
+        is_face & (boxes.left <= boxes.right) & (boxes.top <= boxes.bottom) & (farthest > 0.0f);
     for (unsigned left = Bits(drawn); left != 0; left &= left - 1) {
-      front_faces_[count++] = group[std::countr_zero(left)];
+      faces_to_draw_[count++] = group[std::countr_zero(left)];
     }
   };
   // Remaining lanes are filled with the last triangle: drawing it twice has no effect.
@@ -106,18 +108,18 @@ void FrontFaceZBuffer::CollectFrontFaces(const std::vector<Triangle>& triangles)
     collect(rest.data());
   }
   while (count % kLanes != 0) {
-    front_faces_[count] = front_faces_[count - 1];
+    faces_to_draw_[count] = faces_to_draw_[count - 1];
     ++count;
   }
-  front_face_count_ = count;
+  face_count_ = count;
 }
 
 // Returns the box of what was drawn. The buffer holds 1/z meanwhile (larger is nearer, 0 is empty).
-FrontFaceZBuffer::Box FrontFaceZBuffer::DrawFrontFaces() {
+LaneZBuffer::Box LaneZBuffer::Draw() {
   Box drawn{camera_.width, camera_.height, -1, -1};
   float* pixels = depth_.pixels().data();
-  for (std::size_t i = 0; i < front_face_count_; i += kLanes) {
-    const TriangleLanes lanes(corners_, &front_faces_[i]);
+  for (std::size_t i = 0; i < face_count_; i += kLanes) {
+    const TriangleLanes lanes(corners_, &faces_to_draw_[i]);
     const auto& [a, b, c] = lanes;
     const BoxLanes boxes = lanes.Boxes(camera_);
     drawn.left = std::min(drawn.left, static_cast<int>(SmallestLane(boxes.left)));
@@ -152,13 +154,13 @@ FrontFaceZBuffer::Box FrontFaceZBuffer::DrawFrontFaces() {
   return drawn;
 }
 
-void FrontFaceZBuffer::Clear(const Box& box) {
+void LaneZBuffer::Clear(const Box& box) {
   for (int v = box.top; v <= box.bottom; ++v) {
     std::fill(&depth_(0, v) + box.left, &depth_(0, v) + box.right + 1, 0.0f);
   }
 }
 
-void FrontFaceZBuffer::Invert(const Box& box) {
+void LaneZBuffer::Invert(const Box& box) {
   for (int v = box.top; v <= box.bottom; ++v) {
     float* row = &depth_(0, v);
     for (int u = box.left; u <= box.right; ++u) {

@@ -1,11 +1,13 @@
-#include "geometry/front_face_zbuffer.h"
+#include "geometry/zbuffer.h"
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
 #include "core/random.h"
-#include "geometry/zbuffer.h"
+#include "geometry/front_face_zbuffer.h"
+#include "tests/geometry/scalar_zbuffer.h"
 
 namespace vitruvia {
 namespace {
@@ -46,17 +48,18 @@ int DifferentPixels(const DepthImage& a, const DepthImage& b) {
   return count;
 }
 
-TEST(FrontFaceZBuffer, DrawsWhatTheReferenceDraws) {
+TEST(ZBuffers, DrawWhatTheReferenceDraws) {
   RandomStream random(1, "balls");
-  ZBuffer reference(kCamera);
-  FrontFaceZBuffer quick(kCamera);
+  ZBuffer all(kCamera);
+  FrontFaceZBuffer front(kCamera);
   for (int trial = 0; trial < 20; ++trial) {
     const Vector3f center(static_cast<float>(random.Uniform(-1.0, 1.0)),
                           static_cast<float>(random.Uniform(-1.0, 1.0)),
                           static_cast<float>(random.Uniform(1.5, 4.0)));
     const TriangleMesh ball = Ball(center, 0.4f, 24);
-    const DepthImage& expected = reference.Render(ball.vertices, ball.triangles);
-    const DepthImage& drawn = quick.Render(ball.vertices, ball.triangles);
+    const DepthImage expected = RenderScalar(kCamera, ball);
+    EXPECT_EQ(all.Render(ball.vertices, ball.triangles).pixels(), expected.pixels());
+    const DepthImage& drawn = front.Render(ball.vertices, ball.triangles);
     int covered = 0;
     for (const float z : expected.pixels()) covered += z > 0.0f ? 1 : 0;
     // Silhouettes fall between pixels; rounding may decide about one of them.
@@ -65,9 +68,9 @@ TEST(FrontFaceZBuffer, DrawsWhatTheReferenceDraws) {
 }
 
 // Eight triangles are drawn side by side; counts in between must not lose or invent one.
-TEST(FrontFaceZBuffer, DrawsAnyNumberOfTriangles) {
-  ZBuffer reference(kCamera);
-  FrontFaceZBuffer quick(kCamera);
+TEST(ZBuffers, DrawAnyNumberOfTriangles) {
+  ZBuffer all(kCamera);
+  FrontFaceZBuffer front(kCamera);
   RandomStream random(1, "slips");
   const auto coordinate = [&](double size) {
     return static_cast<float>(random.Uniform(-size, size));
@@ -82,15 +85,21 @@ TEST(FrontFaceZBuffer, DrawsAnyNumberOfTriangles) {
       for (Vector3f& p : corners) {
         p = center + Vector3f(coordinate(size), coordinate(size), coordinate(size));
       }
-      const Vector3f normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-      if (normal.dot(corners[0]) > 0.0f) std::swap(corners[1], corners[2]);  // front faces
       const int first = 3 * i;
       slips.vertices.insert(slips.vertices.end(), corners.begin(), corners.end());
       slips.triangles.push_back({first, first + 1, first + 2});
     }
-    EXPECT_EQ(quick.Render(slips.vertices, slips.triangles).pixels(),
-              reference.Render(slips.vertices, slips.triangles).pixels())
+    EXPECT_EQ(all.Render(slips.vertices, slips.triangles).pixels(),
+              RenderScalar(kCamera, slips).pixels())
         << count << " triangles";
+    for (auto& [a, b, c] : slips.triangles) {
+      const Vector3f& corner = slips.vertices[a];
+      const Vector3f normal = (slips.vertices[b] - corner).cross(slips.vertices[c] - corner);
+      if (normal.dot(corner) > 0.0f) std::swap(b, c);  // front faces
+    }
+    EXPECT_EQ(front.Render(slips.vertices, slips.triangles).pixels(),
+              RenderScalar(kCamera, slips).pixels())
+        << count << " front faces";
   }
 }
 
@@ -117,6 +126,20 @@ TEST(FrontFaceZBuffer, LeavesOutBackFacesAndWhatIsBehindTheCamera) {
   EXPECT_EQ(one_way, 0);
   EXPECT_NEAR(other_way, 0.5 * 142.5 * 142.5, 300);
   EXPECT_EQ(covered({{0, 3, 1}, {0, 1, 3}}), 0);
+}
+
+// A corner that is no number takes its triangle along, and nothing else.
+TEST(ZBuffers, LeaveOutWhatIsNoNumber) {
+  for (const float bad :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    for (int axis = 0; axis < 2; ++axis) {
+      TriangleMesh ball = Ball({0.1f, 0.0f, 2.0f}, 0.4f, 12);
+      ball.vertices[100][axis] = bad;
+      ZBuffer all(kCamera);
+      EXPECT_EQ(all.Render(ball.vertices, ball.triangles).pixels(),
+                RenderScalar(kCamera, ball).pixels());
+    }
+  }
 }
 
 TEST(FrontFaceZBuffer, DrawsNothingForABodyOutOfView) {
