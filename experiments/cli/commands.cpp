@@ -146,6 +146,9 @@ int RunCommandLine(int argc, const char* const* argv) {
   } catch (const Error& error) {
     PrintMessage("vitruvia: {}\n", error.what());
     return static_cast<int>(error.code());
+  } catch (const fs::filesystem_error& error) {
+    PrintMessage("vitruvia: {}: {}\n", error.path1().string(), error.code().message());
+    return static_cast<int>(ExitCode::kFailedRun);
   } catch (const std::system_error& error) {  // fmt's, of the only stream that is printed to
     PrintMessage("vitruvia: standard output: {}\n", error.code().message());
     return static_cast<int>(ExitCode::kFailedRun);

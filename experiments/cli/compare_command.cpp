@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/message.h"
+#include "experiments/cli/argument_checks.h"
 #include "experiments/cli/experiment_folder.h"
 #include "experiments/cli/problems.h"
 
@@ -148,7 +149,7 @@ void AddCompareCommand(CLI::App& app) {
       ->add_option("--detect", a->detect,
                    "print how many scenes are needed to detect a difference of this size, in the "
                    "metric's printed unit")
-      ->check(CLI::PositiveNumber);
+      ->check(NumberIn(1e-9, 1e9));
   compare->add_option("-o,--output", a->output,
                       "also write the table to this .tex, .csv, .md or .json file");
   compare->callback([a] { Compare(*a); });

@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "core/error.h"
-#include "core/pattern.h"
+#include "experiments/cli/experiment_folder.h"
 #include "records/run_record.h"
 #include "reports/export/gltf_export.h"
 #include "reports/export/joint_export.h"
@@ -49,8 +49,8 @@ std::pair<fs::path, int> ExportRun(const fs::path& experiment, const std::string
 
 void Export(const ExportArguments& arguments) {
   int runs = 0;
-  for (const std::string& run_id : ReadExperimentRecord(arguments.folder).run_ids) {
-    if (!arguments.only.empty() && !MatchesPattern(arguments.only, run_id)) continue;
+  const ExperimentRecord experiment = ReadExperimentRecord(arguments.folder);
+  for (const std::string& run_id : RunsMatching(experiment, arguments.only)) {
     if (!fs::is_directory(arguments.folder / run_id / "estimate")) continue;
     for (const Format format : arguments.formats) {
       const auto [file, frames] = ExportRun(arguments.folder, run_id, format, arguments.frames);
@@ -59,9 +59,8 @@ void Export(const ExportArguments& arguments) {
     ++runs;
   }
   if (runs == 0)
-    throw DataError(fmt::format("{}: holds no run with an estimate to export{}",
-                                arguments.folder.string(),
-                                arguments.only.empty() ? "" : " that matches " + arguments.only));
+    throw DataError(
+        fmt::format("{}: holds no run with an estimate to export", arguments.folder.string()));
 }
 
 }  // namespace
@@ -71,7 +70,7 @@ void AddExportCommand(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "export", "Write runs as files that other programs open: surfaces, joints");
   command->add_option("DIR", a->folder, "the experiment's folder")->required();
-  command->add_option("--only", a->only, "only runs whose id matches this pattern (* ? [abc])");
+  AddOnlyOption(*command, a->only);
   command->add_option("--frames", a->frames, "only these frames (not for bvh); default: all");
   command
       ->add_option(

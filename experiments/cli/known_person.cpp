@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "experiments/cli/argument_checks.h"
+
 namespace vitruvia {
 
 KnownAttributes PersonOptions::Known() const {
@@ -12,9 +14,9 @@ KnownAttributes PersonOptions::Known() const {
 
 void AddPersonOptions(CLI::App& command, PersonOptions& person) {
   command.add_option("--height", person.height_m, "the person's height, m, if known")
-      ->check(CLI::Range(0.6, 2.5));
+      ->check(NumberIn(0.6, 2.5));
   command.add_option("--weight", person.weight_kg, "the person's weight, kg, if known")
-      ->check(CLI::Range(5.0, 300.0));
+      ->check(NumberIn(5.0, 300.0));
   command.add_option("--sex", person.sex, "female or male, if known")
       ->check(CLI::IsMember({"female", "male"}));
 }

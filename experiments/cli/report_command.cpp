@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "core/error.h"
+#include "experiments/cli/argument_checks.h"
 #include "experiments/cli/experiment_folder.h"
 #include "experiments/cli/problems.h"
 #include "reports/pages/report.h"
@@ -94,7 +95,7 @@ void AddReportCommand(CLI::App& app) {
   AddExperimentArgument(*report, a->experiment, a->output);
   report->add_option("--width", a->width, "width of the figures for a paper, such as 84mm; 84mm");
   report->add_option("--font-size", a->font_size, "size of their text in points; 8")
-      ->check(CLI::Range(3.0, 40.0));
+      ->check(NumberIn(3.0, 40.0));
   report->add_option("--format", a->formats, "their formats, such as pdf,svg,png; pdf")
       ->delimiter(',')
       ->check(CLI::IsMember({"pdf", "svg", "png"}));

@@ -6,7 +6,6 @@
 
 #include "core/error.h"
 #include "core/message.h"
-#include "core/pattern.h"
 #include "experiments/cli/experiment_folder.h"
 #include "experiments/plan/experiment_config.h"
 #include "experiments/run/experiment_files.h"
@@ -56,8 +55,7 @@ void RescoreIfReadable(const fs::path& folder, const std::string& run_id,
 void Rescore(const fs::path& folder, const std::string& only) {
   Counts counts;
   const ExperimentRecord experiment = ReadExperimentRecord(folder);
-  for (const std::string& run_id : experiment.run_ids) {
-    if (!only.empty() && !MatchesPattern(only, run_id)) continue;
+  for (const std::string& run_id : RunsMatching(experiment, only)) {
     if (!fs::exists(folder / run_id / "record.json")) continue;
     if (!fs::is_directory(folder / run_id / "estimate")) {
       fmt::print("{}: has no estimate, its record stays as it is\n", run_id);
@@ -72,8 +70,8 @@ void Rescore(const fs::path& folder, const std::string& only) {
              counts.changed, folder.string());
   if (counts.damaged > 0)
     throw DataError(
-        fmt::format("{}: {} runs could not be read and were skipped; vitruvia run "
-                    "carries out those with a damaged record again",
+        fmt::format("{}: {} runs could not be read and were skipped; vitruvia run --again "
+                    "--only RUN carries one out anew",
                     folder.string(), counts.damaged));
 }
 
@@ -103,7 +101,7 @@ void AddRescoreCommand(CLI::App& app) {
   CLI::App* rescore = app.add_subcommand(
       "rescore", "Recompute all metrics from stored estimates, without tracking");
   AddExperimentArgument(*rescore, a->experiment, a->output);
-  rescore->add_option("--only", a->only, "only runs whose id matches this pattern (* ? [abc])");
+  AddOnlyOption(*rescore, a->only);
   rescore->footer(
       "Given the experiment file, its summaries and table_columns replace those of the folder.");
   rescore->callback([a] {

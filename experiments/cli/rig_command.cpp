@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/message.h"
+#include "experiments/cli/argument_checks.h"
 #include "experiments/cli/known_person.h"
 #include "geometry/mesh_io.h"
 #include "importers/frame_files.h"
@@ -117,7 +118,7 @@ void AddRigCommand(CLI::App& app) {
       ->required();
   command->add_option("--space", a->space, "folder of the shape space")->required();
   command->add_option("--unit", a->unit_m, "unit of length of the meshes, m")
-      ->check(CLI::Range(1e-6, 1e3))
+      ->check(NumberIn(1e-6, 1e3))
       ->capture_default_str();
   AddPersonOptions(*command, a->person);
   command->add_option("--settings", a->settings,

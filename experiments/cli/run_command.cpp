@@ -9,6 +9,7 @@
 #include "analysis/printed_metric.h"
 #include "core/error.h"
 #include "core/message.h"
+#include "experiments/cli/argument_checks.h"
 #include "experiments/plan/run_selection.h"
 #include "experiments/run/experiment_files.h"
 #include "experiments/run/machine_lock.h"
@@ -148,8 +149,7 @@ void CarryOut(const PlannedExperiment& plan, const std::vector<PlannedRun>& runs
 // The remaining runs, and an estimate of their time from stored runs.
 class Workload {
  public:
-  void Add(RunState state, std::optional<double> seconds) {
-    if (state == RunState::kDone) return;
+  void Add(std::optional<double> seconds) {
     ++left_;
     if (!seconds) ++unknown_;
     seconds_ += seconds.value_or(0.0);
@@ -171,25 +171,26 @@ class Workload {
   double seconds_ = 0.0;
 };
 
-void PrintPlan(const PlannedExperiment& plan, const std::vector<PlannedRun>& runs, int jobs) {
+void PrintPlan(const PlannedExperiment& plan, const std::vector<PlannedRun>& runs,
+               const RunArguments& arguments) {
   const RunTimes times(plan.root);
   Workload workload;
   fmt::print("{:<8} {:>8}  run\n", "state", "time");
   for (const PlannedRun& run : runs) {
     const RunState state = StatusOf(plan.folder / run.run_id, run.key).state;
     const std::optional<double> seconds = times.Estimate(run);
-    workload.Add(state, seconds);
+    if (arguments.again || state != RunState::kDone) workload.Add(seconds);
     fmt::print("{:<8} {:>8}  {}\n", Name(state),
                seconds ? fmt::format("{:.1f} s", *seconds) : "unknown", run.run_id);
   }
-  fmt::print("{}\n", workload.Text(runs.size(), jobs));
+  fmt::print("{}\n", workload.Text(runs.size(), arguments.jobs));
 }
 
 void Run(const RunArguments& arguments) {
   const PlannedExperiment plan = PlanForOutput(arguments.experiment, arguments.output);
   const std::vector<PlannedRun> runs = SelectedRuns(plan.experiment.runs, arguments.selection);
   if (arguments.dry_run) {
-    PrintPlan(plan, runs, arguments.jobs);
+    PrintPlan(plan, runs, arguments);
   } else {
     CarryOut(plan, runs, arguments);
   }
@@ -200,13 +201,15 @@ void Run(const RunArguments& arguments) {
 void AddRunCommand(CLI::App& app) {
   auto a = std::make_shared<RunArguments>();
   CLI::App* run = app.add_subcommand("run", "Run an experiment and write its report");
-  run->add_option("EXPERIMENT", a->experiment, "experiment file")->required();
+  run->add_option("EXPERIMENT", a->experiment, "experiment file")->required()->check(NotEmpty());
   run->add_option("-o,--output", a->output, "the experiment's folder; without it out/NAME");
   run->add_option("--only", a->selection.only,
-                  "only runs whose id, variant or scene matches this pattern (* ? [abc])");
+                  "only runs whose id, variant or scene matches this pattern (* ? [abc])")
+      ->check(NotEmpty());
   run->add_option(
-      "--shard", a->selection.shard,
-      "i/n: only every n-th run, beginning with the i-th; the shards share one output folder");
+         "--shard", a->selection.shard,
+         "i/n: only every n-th run, beginning with the i-th; the shards share one output folder")
+      ->check(NotEmpty());
   run->add_option("-j,--jobs", a->jobs,
                   "number of concurrent runs; timed runs are executed one by one")
       ->check(CLI::Range(1, kMostJobs));

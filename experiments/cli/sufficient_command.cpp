@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "core/files.h"
+#include "experiments/cli/argument_checks.h"
 #include "experiments/studies/sufficient.h"
 
 namespace vitruvia {
@@ -67,7 +68,7 @@ void AddSufficientCommand(CLI::App& app) {
       ->add_option(
           "--margin", a->settings.margin,
           "allowed increase of the error over the full model's, relative to the full model's error")
-      ->check(CLI::Range(0.0, 10.0))
+      ->check(NumberIn(0.0, 10.0))
       ->capture_default_str();
   command
       ->add_option("--metric", a->settings.metric,

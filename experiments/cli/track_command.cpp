@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "core/error.h"
+#include "experiments/cli/argument_checks.h"
 #include "experiments/plan/experiment_config.h"
 #include "experiments/run/frame_failures.h"
 #include "experiments/run/tracking_run.h"
@@ -52,7 +53,7 @@ void AddTrackCommand(CLI::App& app) {
   track
       ->add_option("--failed-frames-limit", a->failed_frames_limit,
                    "share of the frames that may fail; with more the exit code is 8")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(NumberIn(0.0, 1.0))
       ->capture_default_str();
   track->footer(
       "The summary is printed and the estimate is kept however many frames failed.\n"

@@ -52,6 +52,13 @@ void View(const ViewArguments& arguments) {
   }
   if (arguments.page.empty())
     throw ConfigError("view: expected -o PAGE.html, since there are several runs");
+  for (const fs::path& run : runs) {
+    if (fs::exists(run / "experiment.json"))
+      throw ConfigError(
+          fmt::format("view: {} is an experiment's folder; expected folders of its runs for one "
+                      "page, such as {}",
+                      run.string(), (run / "RUN_ID").string()));
+  }
   WritePage(runs, arguments.limits, arguments.page);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/did_you_mean.h"
 #include "core/error.h"
 #include "core/pattern.h"
 #include "experiments/plan/overrides.h"
@@ -11,6 +12,12 @@
 
 namespace vitruvia {
 namespace fs = std::filesystem;
+
+std::string SceneNameOf(const fs::path& scene_file) { return scene_file.stem().string(); }
+
+std::string SequenceNameOf(const fs::path& folder) {
+  return (folder.has_filename() ? folder : folder.parent_path()).filename().string();
+}
 
 bool IsPlainName(const std::string& name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
@@ -100,6 +107,56 @@ std::string UnusedVariantOrMethod(const ExperimentSettings& settings) {
   return "";
 }
 
+std::string Twice(const std::string& key, std::vector<std::string> names) {
+  std::sort(names.begin(), names.end());
+  const auto twice = std::adjacent_find(names.begin(), names.end());
+  return twice == names.end() ? "" : fmt::format("{}: the name \"{}\" stands twice", key, *twice);
+}
+
+template <class Named>
+std::vector<std::string> NamesOf(const std::vector<Named>& all) {
+  std::vector<std::string> names;
+  for (const Named& named : all) names.push_back(named.name);
+  return names;
+}
+
+// Of a metric that the experiment shows: it is in the catalogue, and a summary is one of its own.
+std::string ShownMetricProblem(const ExperimentSettings& settings, const std::string& key) {
+  if (std::string problem = UnknownMetricProblem(key); !problem.empty()) return problem;
+  if (FindMetric(key).family != kOwnSummary) return "";
+  const std::vector<std::string> defined = NamesOf(settings.summaries);
+  const std::string name = FindMetric(key).member;
+  if (std::find(defined.begin(), defined.end(), name) != defined.end()) return "";
+  return fmt::format("{}: the experiment defines no summary \"{}\"{}", key, name,
+                     DidYouMean(name, defined));
+}
+
+std::string TableColumnsProblem(const ExperimentSettings& settings) {
+  for (const std::string& column : settings.table_columns) {
+    if (const std::string problem = ShownMetricProblem(settings, column); !problem.empty())
+      return "table_columns: " + problem;
+  }
+  return Twice("table_columns", settings.table_columns);
+}
+
+// An expectation of a scene that is none of the experiment's would never be held against anything.
+std::string ExpectationsProblem(const ExperimentSettings& settings) {
+  std::vector<std::string> scenes;
+  for (const fs::path& scene : settings.scenes) scenes.push_back(SceneNameOf(scene));
+  for (const fs::path& sequence : settings.sequences) scenes.push_back(SequenceNameOf(sequence));
+  for (std::size_t i = 0; i < settings.expectations.size(); ++i) {
+    const ExpectationSettings& expectation = settings.expectations[i];
+    std::string problem = ShownMetricProblem(settings, expectation.metric);
+    for (const std::string& scene : expectation.scenes) {
+      if (std::find(scenes.begin(), scenes.end(), scene) == scenes.end())
+        problem =
+            fmt::format("the experiment has no scene \"{}\"{}", scene, DidYouMean(scene, scenes));
+    }
+    if (!problem.empty()) return fmt::format("expectations[{}]: {}", i, problem);
+  }
+  return "";
+}
+
 }  // namespace
 
 void ExperimentSettings::Describe(Fields& f) {
@@ -172,16 +229,10 @@ std::string ExperimentSettings::Problem() const {
   for (const FrameSummary& summary : summaries) {
     if (std::string problem = JointsProblem(summary); !problem.empty()) return problem;
   }
-  for (const std::string& column : table_columns) {
-    if (const std::string problem = UnknownMetricProblem(column); !problem.empty())
-      return "table_columns: " + problem;
-  }
-  std::vector<std::string> names;
-  for (const VariantSettings& variant : variants) {
-    if (std::find(names.begin(), names.end(), variant.name) != names.end()) {
-      return fmt::format("variants: the name \"{}\" stands twice", variant.name);
-    }
-    names.push_back(variant.name);
+  for (const std::string& problem :
+       {Twice("summaries", NamesOf(summaries)), Twice("variants", NamesOf(variants)),
+        TableColumnsProblem(*this), ExpectationsProblem(*this)}) {
+    if (!problem.empty()) return problem;
   }
   return UnusedVariantOrMethod(*this);
 }

@@ -77,6 +77,10 @@ bool IsAbout(const VariantSettings& variant, const std::filesystem::path& method
 // The name of the single variant of an experiment without variants.
 inline constexpr const char* kDefaultVariant = "default";
 
+// What runs call a scene of that file, and a stored sequence of that folder.
+std::string SceneNameOf(const std::filesystem::path& scene_file);
+std::string SequenceNameOf(const std::filesystem::path& folder);
+
 // Whether the name can be part of a folder's name: letters, digits, . _ - only.
 bool IsPlainName(const std::string& name);
 

@@ -31,7 +31,7 @@ std::vector<Recording> RecordingsOf(const ExperimentSettings& settings) {
 
 void TakeScene(const fs::path& scene_file, const VariantSettings& variant, int most_frames,
                RunPlan& run) {
-  run.scene = scene_file.stem().string();
+  run.scene = SceneNameOf(scene_file);
   run.scene_settings = ReadScene(scene_file, variant.scene);
   run.scene_settings.seed = run.seed;
   if (most_frames > 0) run.scene_settings.frames = std::min(run.scene_settings.frames, most_frames);
@@ -41,7 +41,7 @@ void TakeScene(const fs::path& scene_file, const VariantSettings& variant, int m
 
 void TakeSequence(const fs::path& folder, const VariantSettings& variant, RunPlan& run) {
   run.sequence = folder.has_filename() ? folder : folder.parent_path();
-  run.scene = run.sequence.filename().string();
+  run.scene = SequenceNameOf(folder);
   if (!IsPlainName(run.scene)) {
     throw ConfigError(fmt::format("{}: expected letters, digits, . _ - only in a sequence's name",
                                   folder.string()));

@@ -20,11 +20,17 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
 
-fs::path ObtainSequence(const RunPlan& run, const WorkFolders& work) {
-  if (!run.sequence.empty()) return run.sequence;
+// DataError with the remedy if a sequence that was generated here was damaged since.
+SequenceReader ObtainSequence(const RunPlan& run, const WorkFolders& work) {
+  if (!run.sequence.empty()) return SequenceReader(run.sequence);
   const CachedFolder kept = SequenceOf(run, work.sequences);
   kept.GetOrBuild([&run](const fs::path& made) { SynthesizeSequence(run.scene_settings, made); });
-  return kept.path();
+  try {
+    return SequenceReader(kept.path());
+  } catch (const DataError& error) {
+    throw DataError(fmt::format("{}; remove the folder {}, and the next run generates it again",
+                                error.what(), kept.path().string()));
+  }
 }
 
 // Warnings for readers of the run's numbers, from the generation of the sequence and from its
@@ -164,7 +170,7 @@ void TrackSequence(const SequenceReader& sequence, const PinholeCamera& camera,
 
 RunRecord CarryOutTracking(const PlannedRun& planned, const fs::path& run_folder) {
   const RunPlan run = ReadRunPlan(planned);
-  const SequenceReader sequence(ObtainSequence(run, planned.work));
+  const SequenceReader sequence = ObtainSequence(run, planned.work);
   std::vector<std::string> warnings = WarningsOf(run, sequence);
   Track(run, sequence, planned.work, run_folder / "estimate");
   RunRecord record = RecordOf(run, planned.experiment);

@@ -14,7 +14,7 @@ namespace {
 void RequireFrames(const std::vector<int>& frames, int count, const std::string& run_id) {
   for (const int frame : frames) {
     if (frame >= 0 && frame < count) continue;
-    throw DataError(
+    throw ConfigError(
         fmt::format("{}: there is no frame {}: expected 0 … {}", run_id, frame, count - 1));
   }
 }

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 
-#include "analysis/paired_comparison.h"
+#include "analysis/paired_differences.h"
 #include "analysis/printed_metric.h"
 #include "core/error.h"
 #include "core/pattern.h"
@@ -55,7 +54,7 @@ struct PairedValues {
 PairedValues PairsOf(const ClaimTest& test, const Metric& metric,
                      const std::vector<ReportedExperiment>& experiments) {
   PairedValues values;
-  std::map<std::string, std::vector<double>> differences;
+  PairedDifferences differences;
   for (const ReportedExperiment& experiment : experiments) {
     const RunList candidates = RunsOf(test.against, test, experiment);
     for (const RunRecord* run : RunsOf(test.of, test, experiment)) {
@@ -65,10 +64,10 @@ PairedValues PairsOf(const ClaimTest& test, const Metric& metric,
       if (std::isnan(of) || std::isnan(against)) continue;
       values.of.push_back(of);
       values.against.push_back(against);
-      differences[run->scene].push_back(of - against);
+      differences.Add(*partner, *run, of - against);
     }
   }
-  for (auto& [scene, of_scene] : differences) values.differences.push_back(std::move(of_scene));
+  values.differences = differences.Grouped();
   return values;
 }
 
@@ -155,18 +154,18 @@ std::string NotWithin(const Interval& interval, double margin) {
 void DecidePairs(const ClaimTest& test, const Metric& metric,
                  const std::vector<ReportedExperiment>& experiments, ClaimFinding& finding) {
   const PairedValues values = PairsOf(test, metric, experiments);
-  const std::size_t pairs = values.of.size();
-  if (pairs == 0) {
+  if (values.of.empty()) {
     const bool has_runs = !ValuesOf(test.against, test, metric, experiments).empty();
     finding.reason = has_runs ? fmt::format("no run of {} has a partner", test.of)
                               : fmt::format("no run of {} has {}", test.against, metric.key);
     return;
   }
   const PairedComparison comparison = ComparePairs(values.differences);
+  const int pairs = comparison.difference.count;
   finding.ours = fmt::format("{} against {}", Printed(Mean(values.of), metric),
                              WithUnit(Printed(Mean(values.against), metric), metric));
   const int fewest = FewestPairs(BootstrapSettings{}.confidence);
-  if (static_cast<int>(pairs) < fewest) {
+  if (pairs < fewest) {
     finding.reason = fmt::format("{} pairs, and fewer than {} decide nothing", pairs, fewest);
     return;
   }

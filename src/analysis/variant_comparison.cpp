@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "analysis/paired_differences.h"
 #include "analysis/swept_settings.h"
 #include "core/error.h"
 #include "records/metric_value.h"
@@ -84,6 +85,8 @@ std::vector<Metric> MetricsToCompare(const std::vector<RunPair>& pairs,
     return metrics.empty() ? UsualMetrics(pairs) : metrics;
   }
   for (const std::string& key : asked) {
+    if (std::count(asked.begin(), asked.end(), key) > 1)  // Holm's correction would count it twice
+      throw ConfigError(fmt::format("metric \"{}\": asked for twice", key));
     metrics.push_back(FindMetric(key));
     if (!SomePairHas(pairs, metrics.back()))
       throw ConfigError(fmt::format("metric \"{}\": no pair of runs has it", key));
@@ -91,49 +94,10 @@ std::vector<Metric> MetricsToCompare(const std::vector<RunPair>& pairs,
   return metrics;
 }
 
-std::string FullName(const RunRecord& run) { return run.method + "/" + run.variant; }
-
-// Differences of pairs by scene. Repeats of a run that agree to the last bit, as all but times do,
-// are one pair; runs of other methods or variants are none of its repeats.
-class DifferencesByScene {
- public:
-  void Add(const RunRecord& run, double difference) {
-    const std::string name = fmt::format("{}\n{}\n{}", FullName(run), run.scene, run.seed);
-    const auto found =
-        std::find_if(runs_.begin(), runs_.end(), [&](const auto& r) { return r.name == name; });
-    if (found == runs_.end()) {
-      runs_.push_back({name, run.scene, {difference}});
-    } else {
-      found->repeats.push_back(difference);
-    }
-  }
-
-  Groups Grouped() const {
-    Groups groups;
-    std::map<std::string, std::size_t> of_scene;
-    for (const Run& run : runs_) {
-      const auto [place, is_new] = of_scene.emplace(run.scene, groups.size());
-      if (is_new) groups.emplace_back();
-      std::vector<double>& group = groups[place->second];
-      const auto& repeats = run.repeats;
-      const bool agree = std::equal(repeats.begin() + 1, repeats.end(), repeats.begin());
-      group.insert(group.end(), repeats.begin(), agree ? repeats.begin() + 1 : repeats.end());
-    }
-    return groups;
-  }
-
- private:
-  struct Run {
-    std::string name, scene;
-    std::vector<double> repeats;
-  };
-  std::vector<Run> runs_;
-};
-
 VariantComparison Compared(const PairedRuns& paired, const Metric& metric) {
   VariantComparison row{metric, paired.reference, paired.other, paired.unpaired, {}, {}, {}};
   std::vector<double> reference, other;
-  DifferencesByScene differences;
+  PairedDifferences differences;
   for (const RunPair& pair : paired.pairs) {
     const double a = MetricValue(*pair.reference, metric), b = MetricValue(*pair.other, metric);
     if (std::isnan(a) || std::isnan(b)) {
@@ -142,7 +106,7 @@ VariantComparison Compared(const PairedRuns& paired, const Metric& metric) {
     }
     reference.push_back(a);
     other.push_back(b);
-    differences.Add(*pair.other, b - a);
+    differences.Add(*pair.reference, *pair.other, b - a);
   }
   if (other.empty()) return row;
   row.reference_spread = SpreadOf(reference);

@@ -24,13 +24,35 @@ std::string LengthProblem(const std::map<std::string, std::vector<double>>& list
   return "";
 }
 
+// Values that are better higher or lower, and those that the program counts with. As text they
+// would pass for absent.
+bool MustBeNumber(const std::string& key) {
+  if (key == "frames" || key == "repeat" || key == "seed") return true;
+  return UnknownMetricProblem(key).empty() && FindMetric(key).better != Better::kNeither;
+}
+
 std::string RowProblem(const nlohmann::json& row) {
   if (!row.is_object()) return "summary: expected an object, got " + row.dump();
   for (const auto& [key, value] : row.items()) {
     if (value.is_structured())
       return fmt::format("summary.{}: expected a number, a text, true or false, got {}", key,
                          value.dump());
+    if (!value.is_number() && !value.is_boolean() && MustBeNumber(key))
+      return fmt::format("summary.{}: expected a number, got {}", key, value.dump());
   }
+  return "";
+}
+
+// Of the keys that reports and plans read.
+std::string ProvenanceProblem(const nlohmann::json& provenance) {
+  const nlohmann::json::json_pointer threads("/threads"), commit("/commit"), wall_s("/run/wall_s");
+  for (const auto& number : {threads, wall_s}) {
+    if (provenance.contains(number) && !provenance.at(number).is_number())
+      return fmt::format("provenance{}: expected a number, got {}", number.to_string(),
+                         provenance.at(number).dump());
+  }
+  if (provenance.contains(commit) && !provenance.at(commit).is_string())
+    return "provenance/commit: expected a text, got " + provenance.at(commit).dump();
   return "";
 }
 
@@ -132,7 +154,8 @@ void RunRecord::Upgrade(Json& file, int /*version*/) {
 std::string RunRecord::Problem() const {
   const std::size_t frame_count = frames.empty() ? 0 : frames.begin()->second.size();
   for (const std::string& problem :
-       {RowProblem(summary), LengthProblem(frames, frame_count, "frames"),
+       {RowProblem(summary), ProvenanceProblem(provenance),
+        LengthProblem(frames, frame_count, "frames"),
         LengthProblem(joint_accuracy, threshold_m.size(), "joint_accuracy")}) {
     if (!problem.empty()) return problem;
   }

@@ -36,9 +36,9 @@ ReportedExperiment Made(const std::vector<MadeRun>& runs) {
 
 // Two methods on `pairs` seeds: ours has the errors 10, 11, … mm, the other `worse_m` more, with a
 // spread of ±1 mm.
-ReportedExperiment Pairs(int pairs, double worse_m) {
+ReportedExperiment Pairs(int pairs, double worse_m, int first_seed = 0) {
   std::vector<MadeRun> runs;
-  for (int seed = 0; seed < pairs; ++seed) {
+  for (int seed = first_seed; seed < first_seed + pairs; ++seed) {
     const double ours = 0.010 + 0.001 * seed;
     runs.push_back({"ours", "v", "s", seed, ours});
     runs.push_back({"other", "v", "s", seed, ours + worse_m + (seed % 2 == 0 ? 0.001 : -0.001)});
@@ -122,8 +122,23 @@ TEST(ClaimBetter, IsNotDecidedByFewPairs) {
   EXPECT_EQ(finding.verdict, ClaimVerdict::kCannotBeTested);
   EXPECT_THAT(finding.reason, HasSubstr("5 pairs"));
   // Pairs of several experiments add up.
-  EXPECT_EQ(Decide(Paired(ClaimRelation::kBetter), {Pairs(3, 0.5), Pairs(3, 0.5)}).verdict,
+  EXPECT_EQ(Decide(Paired(ClaimRelation::kBetter), {Pairs(3, 0.5), Pairs(3, 0.5, 3)}).verdict,
             ClaimVerdict::kHolds);
+}
+
+// Eight seeds of a scene without noise: one sequence, so one pair.
+TEST(ClaimBetter, CountsSeedsThatChangeNothingOnce) {
+  std::vector<MadeRun> runs;
+  for (int seed = 0; seed < 8; ++seed) {
+    runs.push_back({"ours", "v", "s", seed, 0.010});
+    runs.push_back({"other", "v", "s", seed, 0.020});
+  }
+  ReportedExperiment made = Made(runs);
+  EXPECT_EQ(Decide(Paired(ClaimRelation::kBetter), {made}).verdict, ClaimVerdict::kHolds);
+  for (ReportedRun& run : made.runs) run.record->sequence_hash = "one";
+  const ClaimFinding finding = Decide(Paired(ClaimRelation::kBetter), {made});
+  EXPECT_EQ(finding.verdict, ClaimVerdict::kCannotBeTested);
+  EXPECT_THAT(finding.reason, HasSubstr("1 pairs"));
 }
 
 TEST(ClaimBetter, SaysWhichMethodHasNoRuns) {

@@ -138,6 +138,11 @@ TEST_F(CommandLine, MisuseIsABadConfiguration) {
   ExpectRefusal({"synth"}, ExitCode::kBadConfiguration, {"SCENE.json -o DIR"});
   ExpectRefusal({"explain", "axis_wieght"}, ExitCode::kBadConfiguration,
                 {"did you mean \"axis_weight\"?"});
+  ExpectRefusal({"run", ""}, ExitCode::kBadConfiguration, {"EXPERIMENT: expected a value"});
+  ExpectRefusal({"report", File(""), "--font-size", "nan"}, ExitCode::kBadConfiguration,
+                {"--font-size: expected a number in 3 … 40, got nan"});
+  ExpectRefusal({"subject", "--space", "s", "-o", "o", "--height", "nan"},
+                ExitCode::kBadConfiguration, {"--height: expected a number in 0.6 … 2.5"});
 }
 
 TEST_F(CommandLine, BadConfigsAreNamedAndNothingIsWritten) {
@@ -162,6 +167,18 @@ TEST_F(CommandLine, BadConfigsAreNamedAndNothingIsWritten) {
   e = Experiment();
   e["variants"] = {{{"name", "a"}}, {{"name", "a"}}};
   refused(e, {"\"a\" stands twice"});
+  e = Experiment();
+  const Json mean = {{"name", "m"}, {"series", "l2_mean_m"}, {"statistic", "mean"}};
+  e["summaries"] = {mean, mean};
+  refused(e, {"summaries: the name \"m\" stands twice"});
+  e["summaries"] = {mean};
+  e["table_columns"] = {"summary[n]"};
+  refused(e, {"table_columns: summary[n]: the experiment defines no summary \"n\""});
+  e["table_columns"] = {"summary[m]", "summary[m]"};
+  refused(e, {"table_columns: the name \"summary[m]\" stands twice"});
+  e = Experiment();
+  e["expectations"] = {{{"metric", "l2_mean_m"}, {"at_most", 1}, {"scenes", {"scen"}}}};
+  refused(e, {"expectations[0]: the experiment has no scene \"scen\"; did you mean \"scene\"?"});
   e = Experiment();
   e["variants"] = {{{"name", "a"}, {"methods", {"dynamic*"}}}};
   refused(e, {"\"a\" is about no method of the experiment: dynamic*"});

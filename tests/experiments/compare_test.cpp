@@ -68,6 +68,10 @@ TEST_F(Compare, BadInputIsNamed) {
           "no variant \"al\"; there are: all, no_axis");
   refused({out, "--metric", "l2_men_m"}, ExitCode::kBadConfiguration,
           "did you mean \"l2_mean_m\"?");
+  refused({out, "--metric", "l2_mean_m", "--metric", "l2_mean_m"}, ExitCode::kBadConfiguration,
+          "asked for twice");
+  refused({out, "--detect", "nan"}, ExitCode::kBadConfiguration, "--detect: expected a number in");
+  refused({out, "--detect", "0"}, ExitCode::kBadConfiguration, "got 0");
   refused({out, out, "--reference", "all"}, ExitCode::kBadConfiguration, "got two folders");
   refused({out, "-o", "table.txt"}, ExitCode::kBadConfiguration,
           "ends in .tex, .csv, .md or .json");

@@ -107,8 +107,8 @@ TEST_F(Rescore, ComputesSummariesOfTheExperimentFile) {
 
 TEST_F(Rescore, WhatIsMissingOrAnotherIsTold) {
   ExpectRefusal({"rescore", files_.File("nowhere")}, ExitCode::kBadData, {"experiment.json"});
-  ExpectRefusal({"rescore", out_.string(), "--only", "x"}, ExitCode::kBadData,
-                {"holds no run to score again"});
+  ExpectRefusal({"rescore", out_.string(), "--only", "x"}, ExitCode::kBadConfiguration,
+                {"--only x: matches none of the 1 runs; the first is default.scene"});
   const Json record = ReadJsonFile(run_ / "record.json");
   const std::string sequence = record.at("sequence_folder");
   const fs::path joints = out_ / sequence / "truth" / "joints.json";
@@ -121,16 +121,41 @@ TEST_F(Rescore, WhatIsMissingOrAnotherIsTold) {
   ExpectRefusal({"rescore", out_.string()}, ExitCode::kBadData, {"vertices.bin"});
 }
 
+// Its titles, columns and summaries would replace those of the experiment that was carried out.
+TEST_F(Rescore, AnotherExperimentsFileIsRefused) {
+  files_.Write("other.json", SmallExperiment::Config());
+  for (const char* command : {"rescore", "report", "status"})
+    ExpectRefusal({command, files_.File("other.json"), "-o", out_.string()},
+                  ExitCode::kBadConfiguration, {"holds the output of another experiment file"});
+}
+
+TEST_F(Rescore, ADamagedSequenceIsToldWithItsRemedy) {
+  const fs::path sequence =
+      out_ / ReadJsonFile(run_ / "record.json").at("sequence_folder").get<std::string>();
+  fs::remove(sequence / "depth" / "000003.png");
+  const std::vector<std::string> again = {"run", files_.File("experiment.json"), "-o",
+                                          out_.string(), "--again"};
+  ExpectRefusal(again, ExitCode::kFailedRun,
+                {"frame 3 is missing", "and the next run generates it again", "remove the folder"});
+  fs::remove_all(sequence);
+  EXPECT_EQ(CallVitruvia(again).code, 0);
+}
+
+TEST_F(Rescore, OnePageOfAnExperimentsFolderIsRefused) {
+  ExpectRefusal({"view", out_.string(), "-o", files_.File("page.html")},
+                ExitCode::kBadConfiguration, {"is an experiment's folder", "RUN_ID"});
+}
+
 TEST_F(Rescore, ExportWritesMeshesAndRefusesFramesThatAreNotThere) {
   const CallResult call = CallVitruvia({"export", out_.string(), "--frames", "0", "11"});
   ASSERT_EQ(call.code, 0) << call.error;
   EXPECT_THAT(call.out, HasSubstr("meshes/estimate.pvd: 2 frames"));
   for (const char* file : {"estimate_000000.vtp", "truth_000011.vtp", "truth.pvd"})
     EXPECT_TRUE(fs::is_regular_file(run_ / "meshes" / file)) << file;
-  ExpectRefusal({"export", out_.string(), "--frames", "12"}, ExitCode::kBadData,
+  ExpectRefusal({"export", out_.string(), "--frames", "12"}, ExitCode::kBadConfiguration,
                 {"there is no frame 12: expected 0 … 11"});
-  ExpectRefusal({"export", out_.string(), "--only", "x*"}, ExitCode::kBadData,
-                {"holds no run with an estimate to export that matches x*"});
+  ExpectRefusal({"export", out_.string(), "--only", "x*"}, ExitCode::kBadConfiguration,
+                {"--only x*: matches none of the 1 runs"});
 }
 
 }  // namespace

@@ -98,6 +98,25 @@ TEST_F(RunRecordTest, RefusesToStoreWhatJsonCannotHold) {
   EXPECT_FALSE(fs::exists(folder_));
 }
 
+// A text in a number's place would pass for a number that was not measured.
+TEST_F(RunRecordTest, RefusesTextsInThePlacesOfNumbers) {
+  const RunRecord record = SomeRun();
+  WriteRunRecord(folder_, record);
+  const fs::path file = folder_ / record.run_id / "record.json";
+  const json whole = json::parse(ReadWholeFile(file));
+  const auto refused = [&](const char* place, const json& value, const std::string& words) {
+    json edited = whole;
+    edited[json::json_pointer(place)] = value;
+    WriteWholeFile(file, edited.dump());
+    EXPECT_THAT(MessageOfReading(folder_, record.run_id), HasSubstr(words));
+  };
+  refused("/summary/l2_mean_m", "0.3", "summary.l2_mean_m: expected a number, got \"0.3\"");
+  refused("/summary/frames", nullptr, "summary.frames: expected a number, got null");
+  refused("/summary/repeat", "2", "summary.repeat: expected a number");
+  refused("/provenance/threads", "2", "provenance/threads: expected a number");
+  refused("/provenance/commit", 7, "provenance/commit: expected a text, got 7");
+}
+
 TEST_F(RunRecordTest, NamesFileAndKeyOfEveryMissingKey) {
   const RunRecord record = SomeRun();
   WriteRunRecord(folder_, record);
