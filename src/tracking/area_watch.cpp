@@ -40,7 +40,7 @@ void AreaWatchSettings::Describe(Fields& f) {
             .source = "0.3 and 0.5 tell the same frames of captured/tuning"});
   f.Number(
       "other_body_share", other_body_share,
-      {.meaning = "the subject is searched among the points out of the model's reach when "
+      {.meaning = "a lost subject is searched among the points out of the model's reach when "
                   "their area exceeds this multiple of the visible area of the model",
        .min = 0,
        .max = 1e6,
@@ -73,7 +73,7 @@ void AreaWatch::Assess(const BodyAreas& areas) {
   const bool is_other_body =
       areas.stray_m2 > settings_.other_body_share * areas.total().visible_m2();
   if (!is_other_body) pause_ = frames_until_search_ = 0;
-  is_search_due_ = is_other_body && frames_until_search_ == 0;
+  is_search_due_ = is_lost_ && is_other_body && frames_until_search_ == 0;
   if (!is_search_due_) return;
   pause_ = std::max(2 * pause_, settings_.search_pause);
   frames_until_search_ = pause_;

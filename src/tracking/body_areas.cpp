@@ -49,6 +49,11 @@ BoneAreas& BoneAreas::operator+=(const BoneAreas& other) {
   return *this;
 }
 
+double BoneAreas::disagreement() const {
+  constexpr double kLeast_m2 = 0.002;  // some pixels of less area say little
+  return (contradicted_m2 + unexplained_m2) / std::max(visible_m2() + unexplained_m2, kLeast_m2);
+}
+
 BoneAreas BodyAreas::total() const {
   BoneAreas sum;
   for (const BoneAreas& areas : bones) sum += areas;

@@ -21,6 +21,8 @@ struct BoneAreas {
   double unexplained_m2 = 0.0;  // of the points near this bone that the model does not explain
 
   double visible_m2() const { return confirmed_m2 + contradicted_m2 + covered_m2; }
+  // Unexplained and contradicted area as a share of the visible and the unexplained area.
+  double disagreement() const;
   BoneAreas& operator+=(const BoneAreas& other);
 };
 

@@ -1,5 +1,6 @@
 #include "tracking/classification.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vitruvia {
@@ -39,6 +40,30 @@ void ClassifyVertices(const std::vector<Vector3f>& vertices, const std::vector<i
                !at || !IsExplained(captured, *at, vertex.z(), nearness)) {
       classes.elsewhere.push_back(i);
     }
+  }
+}
+
+void AverageObservedDepth(const std::vector<Vector3f>& vertices, const DepthImage& captured,
+                          const DepthImage& rendered, const PinholeCamera& camera, int window_px,
+                          float nearness_m, VertexClasses& classes) {
+  for (std::size_t k = 0; k < classes.near_surface.size(); ++k) {
+    const Vector3f& vertex = vertices[classes.near_surface[k]];
+    const auto at = camera.PixelOf(vertex);
+    if (!at) continue;
+    float sum_m = 0.0f;
+    int count = 0;
+    for (int v = std::max(at->v - window_px, 0);
+         v <= std::min(at->v + window_px, captured.height() - 1); ++v) {
+      for (int u = std::max(at->u - window_px, 0);
+           u <= std::min(at->u + window_px, captured.width() - 1); ++u) {
+        if (!(captured(u, v) > 0.0f) || !(rendered(u, v) > 0.0f)) continue;
+        const float beyond_m = captured(u, v) - rendered(u, v);
+        if (std::abs(beyond_m) >= nearness_m) continue;
+        sum_m += beyond_m;
+        ++count;
+      }
+    }
+    if (count > 0) classes.observed_depth[k] = vertex.z() + sum_m / static_cast<float>(count);
   }
 }
 

@@ -37,6 +37,14 @@ void ClassifyVertices(const std::vector<Vector3f>& vertices, const std::vector<i
                       const DepthImage& captured, const PinholeCamera& camera,
                       const NearnessSettings& nearness, VertexClasses& classes);
 
+// Replaces the observed depth of each vertex of V1 by the vertex's depth plus the mean, over the
+// pixels within `window_px` columns and rows of it, of captured minus rendered depth. Pixels whose
+// depths differ by `nearness_m` or more do not count. `rendered` must show the vertices in the
+// same pose.
+void AverageObservedDepth(const std::vector<Vector3f>& vertices, const DepthImage& captured,
+                          const DepthImage& rendered, const PinholeCamera& camera, int window_px,
+                          float nearness_m, VertexClasses& classes);
+
 // P2: indices of the cloud's points that the rendered model does not explain.
 void FindUnexplainedPoints(const PointCloud& cloud, const DepthImage& rendered,
                            const NearnessSettings& nearness, std::vector<int>& unexplained);

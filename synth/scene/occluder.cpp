@@ -18,16 +18,17 @@ constexpr int kSides = 24;
 
 void WayPoint::Describe(Fields& f) {
   f.Number("time_s", time_s,
-           {.meaning = "time at which the post is at this place",
+           {.meaning = "time at which the occluder is at this place",
             .unit = "s",
             .min = 0.0,
             .max = 1e6,
             .required = true});
-  f.Numbers("position_m", position_m,
-            {.meaning = "place of the post: x to the subject's left, z to the direction that the "
-                        "subject faces first",
-             .unit = "m",
-             .required = true});
+  f.Numbers(
+      "position_m", position_m,
+      {.meaning = "place of the occluder: x to the subject's left, z to the direction that the "
+                  "subject faces first",
+       .unit = "m",
+       .required = true});
 }
 
 void Presence::Describe(Fields& f) {
@@ -43,7 +44,20 @@ std::string Presence::Problem() const {
                      to_s);
 }
 
-void OccluderSettings::Describe(Fields& f) {
+void OccluderSettings::DescribeShape(Fields& f) {
+  f.Choice("shape", shape, {{"post", OccluderShape::kPost}, {"person", OccluderShape::kPerson}},
+           {.meaning = "what moves past the subject: a post, or a second person with the subject's "
+                       "body and motion"});
+  if (f.Applies(shape == OccluderShape::kPerson)) {
+    f.Number("later_s", later_s,
+             {.meaning = "time by which the second person is ahead of the subject in the subject's "
+                         "motion",
+              .unit = "s",
+              .min = -1e6,
+              .max = 1e6,
+              .origin = Origin::kInput});
+  }
+  if (!f.Applies(shape == OccluderShape::kPost)) return;
   f.Number("radius_m", radius_m,
            {.meaning = "radius of the post that moves past the subject; 0: no post",
             .unit = "m",
@@ -56,18 +70,22 @@ void OccluderSettings::Describe(Fields& f) {
             .min = 0.01,
             .max = 3.0,
             .origin = Origin::kInput});
+}
+
+void OccluderSettings::Describe(Fields& f) {
+  DescribeShape(f);
   f.Choice("motion", motion,
            {{"straight", OccluderMotion::kStraight}, {"path", OccluderMotion::kPath}},
-           {.meaning = "how the post moves: at one velocity, or along a path of way points"});
+           {.meaning = "how the occluder moves: at one velocity, or along a path of way points"});
   if (f.Applies(motion == OccluderMotion::kStraight)) {
     f.Numbers(
         "start_m", start_m,
-        {.meaning = "position of the post at time 0 (straight only): x to the subject's left, "
+        {.meaning = "position of the occluder at time 0 (straight only): x to the subject's left, "
                     "z to the direction that the subject faces first",
          .unit = "m",
          .origin = Origin::kInput});
     f.Numbers("velocity_m_s", velocity_m_s,
-              {.meaning = "velocity of the post along x and z (straight only)",
+              {.meaning = "velocity of the occluder along x and z (straight only)",
                .unit = "m/s",
                .origin = Origin::kInput});
   }
@@ -104,9 +122,8 @@ std::array<double, 2> PositionAt(const OccluderSettings& s, double time_s) {
           std::lerp(last.position_m[1], next->position_m[1], share)};
 }
 
-void AddOccluder(const OccluderSettings& s, double time_s, const Rigidd& camera_from_subject,
-                 TriangleMesh& mesh) {
-  if (!s.IsThere() || !s.presence.Holds(time_s)) return;
+void AddPost(const OccluderSettings& s, double time_s, const Rigidd& camera_from_subject,
+             TriangleMesh& mesh) {
   const auto first = static_cast<int>(mesh.vertices.size());
   const auto [x, z] = PositionAt(s, time_s);
   const auto add = [&, x = x, z = z](double dx, double y, double dz) {

@@ -87,7 +87,8 @@ void SceneSettings::Describe(Fields& f) {
   f.Section("view", view, {.meaning = "the camera and where it stands"});
   f.List("views", views,
          {.meaning = "other cameras that record the same, for scores; no tracker sees them"});
-  f.Section("occluder", occluder, {.meaning = "post that moves between camera and subject"});
+  f.Section("occluder", occluder,
+            {.meaning = "post or second person that moves between camera and subject"});
   f.Section("carried", carried, {.meaning = "what the subject carries"});
   f.Section("room", room, {.meaning = "static room round the subject"});
   f.Section("sensor", sensor, {.meaning = "sensor model of the camera"});

@@ -85,11 +85,27 @@ TruePose Stage::PosedAt(double time_s) {
 
 DepthImage Stage::Rendered(double time_s, const TruePose& body) {
   TriangleMesh seen{body.vertices, dressed_.rest.triangles};
-  AddOccluder(settings_.occluder, time_s, camera_from_subject_, seen);
+  AddOccluder(time_s, seen);
   AddCarried(settings_.carried, time_s, dressed_.skeleton, body.camera_from_rest, seen);
   DepthImage depth = renderer_.Render(seen.vertices, seen.triangles);
   if (!room_.empty()) PutBehind(room_, depth);
   return depth;
+}
+
+void Stage::AddOccluder(double time_s, TriangleMesh& seen) const {
+  const OccluderSettings& occluder = settings_.occluder;
+  if (!occluder.IsThere() || !occluder.presence.Holds(time_s)) return;
+  if (occluder.shape == OccluderShape::kPost)
+    return AddPost(occluder, time_s, camera_from_subject_, seen);
+  const auto [x, z] = PositionAt(occluder, time_s);
+  const Rigidd camera_from_person =
+      camera_from_subject_ * Rigidd{Matrix3<double>::Identity(), {x, 0.0, z}};
+  const TruePose person = Pose(dressed_, motion_.At(time_s + occluder.later_s),
+                               settings_.truth.skinning, camera_from_person);
+  const auto first = static_cast<int>(seen.vertices.size());
+  seen.vertices.insert(seen.vertices.end(), person.vertices.begin(), person.vertices.end());
+  for (const Triangle& t : dressed_.rest.triangles)
+    seen.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
 }
 
 DepthImage Stage::RenderedAlone(const TruePose& body) {

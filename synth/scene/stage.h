@@ -44,6 +44,8 @@ class Stage {
   MaskImage BodyMask(const TruePose& body, const DepthImage& depth);
 
  private:
+  void AddOccluder(double time_s, TriangleMesh& seen) const;
+
   const SceneSettings& settings_;
   const Motion& motion_;
   Rigidd camera_from_subject_;

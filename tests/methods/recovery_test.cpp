@@ -35,6 +35,7 @@ double ErrorAfterReturn(int patience) {
   ReturningBody body;
   Settings settings;
   settings.recovery.patience = patience;
+  settings.facing.margin_m = 0.0;  // finds this body by itself
   RealtimeScape tracker(settings);
   return body.second.MeanError(body.Track(tracker).back(), ReturningBody::kAngle_rad);
 }
@@ -77,6 +78,7 @@ TEST(Recovery, ReportsTheFitOfTheReturnedPoseAndTimesTheSearchAsItself) {
     Settings settings;
     settings.solver.watch_energy = true;
     settings.recovery.num_refined = num_refined;
+    settings.facing.margin_m = 0.0;
     RealtimeScape tracker(settings);
     return body.Track(tracker).at(settings.recovery.patience - 1);
   };

@@ -498,14 +498,29 @@ TEST(Occluder, IsThereFromItsTimeToItsTimeAndFollowsItsPath) {
   EXPECT_EQ(at(3.0), (std::array{1.0, 2.0}));
   EXPECT_EQ(at(9.0), (std::array{1.0, 3.0}));
   post.presence = {1.0, 2.0};
-  const auto triangles = [&](double time_s) {
-    TriangleMesh mesh;
-    AddOccluder(post, time_s, Rigidd{}, mesh);
-    return mesh.triangles.size();
+  EXPECT_FALSE(post.presence.Holds(0.99));
+  EXPECT_TRUE(post.presence.Holds(1.0));
+  EXPECT_FALSE(post.presence.Holds(2.0));
+}
+
+// A second person stands where it is put and hides the subject.
+TEST(Occluder, APersonIsTheBodyAtAnotherMomentOfItsMotion) {
+  const TemporaryFolder folder;
+  SceneSettings scene = SmallScene();
+  scene.frames = 2;
+  Record(scene, folder / "alone");
+  scene.occluder.shape = OccluderShape::kPerson;
+  scene.occluder.later_s = 0.0;
+  scene.occluder.start_m = {0.0, 0.5};
+  scene.occluder.velocity_m_s = {0.0, 0.0};
+  Record(scene, folder / "behind");
+  const SequenceReader alone(folder / "alone"), behind(folder / "behind");
+  const auto middle = [](const SequenceReader& sequence) {
+    const DepthImage depth = sequence.ReadDepth(0);
+    return depth(depth.width() / 2, depth.height() / 2);
   };
-  EXPECT_EQ(triangles(0.99), 0u);
-  EXPECT_GT(triangles(1.0), 0u);
-  EXPECT_EQ(triangles(2.0), 0u);
+  EXPECT_NEAR(middle(alone) - middle(behind), 0.5, 0.02);
+  EXPECT_FALSE(behind.true_joints(0).visible[static_cast<std::size_t>(FindJoint("neck"))]);
 }
 
 TEST(Occluder, APathOutOfOrderAndATimeTurnedOverAreRefused) {

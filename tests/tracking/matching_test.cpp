@@ -236,5 +236,26 @@ TEST(KdTree, FindsNothingInNothing) {
   EXPECT_EQ(neighbors[0].index, -1);
 }
 
+// The mean of captured minus rendered depth round a vertex's pixel, without what is another
+// surface.
+TEST(AverageObservedDepth, IsTheVertexsDepthPlusTheMeanDifferenceRoundIt) {
+  PinholeCamera camera;
+  camera.width = 5, camera.height = 5;
+  camera.fx = camera.fy = 100.0;
+  camera.cx = camera.cy = 2.0;
+  DepthImage rendered(5, 5), captured(5, 5);
+  for (float& z : rendered.pixels()) z = 2.0f;
+  for (float& z : captured.pixels()) z = 2.01f;
+  captured(2, 2) = 2.04f;
+  captured(1, 1) = 2.5f;  // another surface
+  captured(3, 3) = 0.0f;  // not measured
+  const std::vector<Vector3f> vertices{{0.001f, 0.0f, 2.002f}};
+  VertexClasses classes;
+  classes.near_surface = {0};
+  classes.observed_depth = {2.04f};
+  AverageObservedDepth(vertices, captured, rendered, camera, 1, 0.05f, classes);
+  EXPECT_NEAR(classes.observed_depth[0], 2.002 + (6 * 0.01 + 0.04) / 7, 1e-5);
+}
+
 }  // namespace
 }  // namespace vitruvia

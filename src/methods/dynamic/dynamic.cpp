@@ -358,7 +358,7 @@ TrackResult Dynamic::Result(const FrameFit& fit) {
   }
   result.joints = PosedJoints(s.skeleton, result.camera_from_rest);
   if (settings_.uncertainty.IsAsked())
-    ReportUncertainty(JointUnitCovariances(fit, result.joints), settings_.uncertainty, result);
+    ReportUncertainty(JointUnitCovariances(fit, result.joints), {}, settings_.uncertainty, result);
   result.iterations = fit.iterations;
   result.condition = fit.condition;
   for (int k = 0; k < kEnergyTermCount; ++k)

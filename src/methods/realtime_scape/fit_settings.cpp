@@ -140,6 +140,16 @@ void FitSettings::DescribeWeights(Fields& f) {
        .max = 64,
        .origin = Origin::kPaper,
        .source = "paper A: 1"});
+  f.Integer("average_px", average_px,
+            {.meaning = "a V1 vertex is compared with the mean of captured minus rendered depth "
+                        "over the pixels within this many columns and rows, so that a mesh that is "
+                        "coarser than the image makes use of all pixels; 0: with the captured "
+                        "depth at its pixel alone, as in iterations that do not render",
+             .unit = "px",
+             .min = 0,
+             .max = 16,
+             .origin = Origin::kPaper,
+             .source = "paper A: 0"});
   f.Choice("kernel", kernel,
            {{"none", RobustKernel::kNone},
             {"huber", RobustKernel::kHuber},

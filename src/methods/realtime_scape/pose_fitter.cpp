@@ -33,6 +33,7 @@ FitSummary PoseFitter::Fit(const Observation& observation, const PoseHistory& hi
     const bool is_view_new = fit.iterations < settings_.fit.visibility_iterations;
     const RenderedView& view = is_view_new ? Render(surface_) : view_;
     const Classification& classification = Classify(observation, surface_, view);
+    if (is_view_new) AverageDepth(observation, surface_, view);
     const std::vector<Pair>& pairs =
         Correspond(observation, surface_, view, classification, history.visibility);
     const FreeSpace& free_space = Delimit(observation, surface_, classification);
@@ -121,6 +122,16 @@ const Classification& PoseFitter::Classify(const Observation& observation,
   classification_.counts = CountByBone(model_, view.visible, classification_.classes);
   clock_.Lap(Step::kClassify);
   return classification_;
+}
+
+// Not in the paper, and timed with line 7. `view` must show the surface as it is.
+void PoseFitter::AverageDepth(const Observation& observation, const PosedSurface& surface,
+                              const RenderedView& view) {
+  if (settings_.fit.average_px == 0) return;
+  AverageObservedDepth(surface.vertices, *observation.depth, *view.depth, camera_,
+                       settings_.fit.average_px, NearnessOf(settings_.fit).depth_m,
+                       classification_.classes);
+  clock_.Lap(Step::kClassify);
 }
 
 // Lines 6 and 8.

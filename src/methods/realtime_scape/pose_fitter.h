@@ -30,7 +30,8 @@ struct FitSummary {
   double condition = -1;    // of the last normal equations; -1 if not estimated
   // Of the last normal equations (tracking/joint_uncertainty.h); empty if not requested.
   std::vector<Matrix3<double>> unit_covariances;
-  std::optional<SystemCheck> check;  // of the last step, if solver.watch_energy is set
+  std::vector<JointSupport> supports;  // filled by the tracker if requested
+  std::optional<SystemCheck> check;    // of the last step, if solver.watch_energy is set
   int iterations = 0;
   int inexact_steps = 0;   // steps that conjugate gradients did not solve to their tolerance
   bool converged = false;  // the stopping rule was met
@@ -61,6 +62,8 @@ class PoseFitter {
   // Points of the cloud that the pose of the last Fit or Compare does not explain, by their
   // indices.
   const std::vector<int>& unexplained() const { return classification_.unexplained; }
+  // Depth of the model in the last iteration of Fit, or in the pose of Compare.
+  const DepthImage& rendered() const { return *view_.depth; }
   // Mean of the vertices that are visible in a pose (camera frame, metres); the root's centre if
   // none is.
   Vector3d VisibleCentroid(const BodyPose& pose);
@@ -75,6 +78,8 @@ class PoseFitter {
   const RenderedView& Render(const PosedSurface& surface);
   const Classification& Classify(const Observation& observation, const PosedSurface& surface,
                                  const RenderedView& view);
+  void AverageDepth(const Observation& observation, const PosedSurface& surface,
+                    const RenderedView& view);
   const std::vector<Pair>& Correspond(const Observation& observation, const PosedSurface& surface,
                                       const RenderedView& view,
                                       const Classification& classification,

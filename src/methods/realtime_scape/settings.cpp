@@ -82,6 +82,27 @@ void LimbSettings::Describe(Fields& f) {
              .source = kSource});
 }
 
+void FacingSettings::Describe(Fields& f) {
+  f.Number("margin_m", margin_m,
+           {.meaning = "the pose with front and back exchanged is tried when the root mean square "
+                       "of the differences in depth between model and frame exceeds the usual one "
+                       "by this in square, and is taken if it is lower by as much; 0: never",
+            .unit = "m",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kTuned,
+            .source = "half_turn of stability/realtime_scape"});
+  if (!f.Applies(margin_m > 0.0)) return;
+  f.Integer("pause", pause,
+            {.meaning = "least number of frames between two such trials; doubled by each trial "
+                        "that finds nothing",
+             .unit = "frames",
+             .min = 1,
+             .max = 1e6,
+             .origin = Origin::kGuessed,
+             .source = "as recovery.pause"});
+}
+
 void StoppingSettings::Describe(Fields& f) {
   f.Number(
       "rotation_step_deg", rotation_step_deg,
@@ -201,6 +222,7 @@ void Settings::Describe(Fields& f) {
     f.Section("start_search", start_search, {.meaning = "search for the first pose"});
   }
   f.Section("limbs", limbs, {.meaning = "search for limbs that moved away from the model"});
+  f.Section("facing", facing, {.meaning = "search for a body that is tracked back to front"});
   f.Section("recovery", recovery, {.meaning = "detection of a lost subject and relocalisation"});
   f.Section(
       "watch", watch,

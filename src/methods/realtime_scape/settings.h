@@ -95,6 +95,7 @@ struct FitSettings {
   double pair_cutoff_m = 0.08;
   double surface_weight = 1.0, pair_weight = 1.0;
   int surface_stride = 1;
+  int average_px = 0;
   RobustKernel kernel = RobustKernel::kHuber;
   double kernel_scale_m = 0.01;
   NoiseSettings noise{};
@@ -134,6 +135,13 @@ struct LimbSettings {
   void Describe(Fields& fields);
 };
 
+// Search for the other facing (facing.h).
+struct FacingSettings {
+  double margin_m = 0.006;  // 0: facing is not checked
+  int pause = 5;          // frames
+  void Describe(Fields& fields);
+};
+
 struct StoppingSettings {
   double rotation_step_deg = 1.0;
   double translation_step_m = 0.005;
@@ -166,6 +174,7 @@ struct Settings {
   PlacementSettings placement;      // of start kRestPose
   PoseSearchSettings start_search;  // of start kSearch
   LimbSettings limbs;
+  FacingSettings facing;
   RelocalizationSettings recovery;
   AreaWatchSettings watch;
   UncertaintySettings uncertainty;

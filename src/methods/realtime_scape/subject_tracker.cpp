@@ -1,5 +1,8 @@
 #include "methods/realtime_scape/subject_tracker.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/error.h"
 #include "math/rigid.h"
 #include "tracking/placement.h"
@@ -7,6 +10,23 @@
 namespace vitruvia::realtime_scape {
 
 using Step = RealtimeScapeStep;
+
+namespace {
+
+// The angle between each bone's axis and where its parent would carry it from the rest pose; 0 for
+// the root.
+std::array<double, kBoneCount> BendsOf(const Skeleton& skeleton, const BodyPose& pose) {
+  const LocalRotations local = LocalRotationsOf(pose);
+  std::array<double, kBoneCount> bends_rad{};
+  for (int bone = 0; bone < kBoneCount; ++bone) {
+    if (Bones()[bone].parent < 0) continue;
+    const Vector3d axis = (skeleton.tips[bone] - skeleton.joints[bone]).normalized();
+    bends_rad[bone] = std::acos(std::clamp(axis.dot(local[bone] * axis), -1.0, 1.0));
+  }
+  return bends_rad;
+}
+
+}  // namespace
 
 SubjectTracker::SubjectTracker(const Subject& subject, const PinholeCamera& camera,
                                const Settings& settings)
@@ -17,11 +37,12 @@ SubjectTracker::SubjectTracker(const Subject& subject, const PinholeCamera& came
       fitter_(model_, camera, settings),
       relocalizer_(model_, camera, settings),
       loss_detector_(settings.recovery) {
+  if (settings.facing.margin_m > 0.0) facing_check_.emplace(model_, camera, settings);
   if (settings.limbs.min_unexplained_m2 > 0.0) limb_finder_.emplace(model_, camera, settings);
-  if (settings.watch.lost_above > 0.0) {
-    watch_.emplace(Watch{{subject, camera, settings.cloud.stride, settings.cloud.max_depth_m,
-                          settings.watch.reach_m},
-                         AreaWatch(settings.watch)});
+  if (settings.watch.lost_above > 0.0) watch_.emplace(settings.watch);
+  if (watch_ || settings.uncertainty.IsAsked()) {
+    area_meter_.emplace(subject, camera, settings.cloud.stride, settings.cloud.max_depth_m,
+                        settings.watch.reach_m);
   }
   if (settings.start == Start::kSearch) {
     start_search_.emplace(subject, camera, settings.cloud.max_depth_m, settings.start_search);
@@ -46,10 +67,12 @@ TrackResult SubjectTracker::TrackFrame(const DepthFrame& frame) {
       fitter_.Fit(observation, *history_, prediction,
                   is_first ? stopping.first_frame_iterations : stopping.max_iterations);
   clock_.Skip();
+  fit = TakeOtherFacing(observation, std::move(fit));
   fit = TakeFoundLimb(observation, std::move(fit));
   fit = TakeBetterPose(observation, std::move(fit), is_first);
   history_ = Advanced(*history_, model_, fit.pose, fit.counts, settings_.search.seen_share);
   fit.times += clock_.times();
+  if (settings_.uncertainty.IsAsked()) fit.supports = SupportsOf(observation, fit);
   Ending ending = EndingOf(fit);
   if (is_first && start_search_) ending.message = WithStart(start_message_, ending.message);
   return Result(std::move(fit), std::move(ending));
@@ -75,7 +98,19 @@ PoseHistory SubjectTracker::Place(const PointCloud& cloud) const {
   return AtRest(RestPose(model_, camera_from_subject));
 }
 
-// The time of a limb search is charged to the same step as relocalisation.
+// The time of a search is charged to the same step as relocalisation.
+FitSummary SubjectTracker::TakeOtherFacing(const Observation& observation, FitSummary fit) {
+  if (!facing_check_) return fit;
+  std::optional<FitSummary> found =
+      facing_check_->Search(observation, fit, fitter_.rendered(), history_->last);
+  clock_.Lap(Step::kRelocalize);
+  if (!found) return fit;
+  history_ = AtRest(found->pose);
+  found->times = fit.times;
+  return *std::move(found);
+}
+
+// As above.
 FitSummary SubjectTracker::TakeFoundLimb(const Observation& observation, FitSummary fit) {
   if (!limb_finder_) return fit;
   std::optional<FitSummary> found = limb_finder_->Search(observation, fit, fitter_.unexplained());
@@ -92,21 +127,21 @@ FitSummary SubjectTracker::TakeFoundLimb(const Observation& observation, FitSumm
 FitSummary SubjectTracker::TakeBetterPose(const Observation& observation, FitSummary fit,
                                           bool is_first) {
   const FrameVerdict verdict = loss_detector_.Assess(fit.agreement);
-  if (watch_) watch_->verdict.Assess(MeasureAreas(observation, fit));
+  if (watch_) watch_->Assess(MeasureAreas(observation, fit));
   // If the first fit was to another object, its pose is useless for a search, so the rest pose is
   // remembered.
   if (is_first && watch_) relocalizer_.Remember(history_->last);
-  const bool is_doubted = watch_ && watch_->verdict.is_lost();
+  const bool is_doubted = watch_ && watch_->is_lost();
   if (is_first || (verdict == FrameVerdict::kAgrees && !is_doubted))
     relocalizer_.Remember(fit.pose);
 
   std::optional<FitSummary> found;
-  if (watch_ && watch_->verdict.is_search_due()) found = FindElsewhere(observation, fit);
+  if (watch_ && watch_->is_search_due()) found = FindElsewhere(observation, fit);
   if (!found && verdict == FrameVerdict::kSearch) found = relocalizer_.Search(observation, fit);
   clock_.Lap(Step::kRelocalize);
   if (!found) return fit;
   loss_detector_.NoteFound(found->agreement);
-  if (watch_) watch_->verdict.NoteFound(MeasureAreas(observation, *found));
+  if (watch_) watch_->NoteFound(MeasureAreas(observation, *found));
   history_ = AtRest(found->pose);
   found->times = fit.times;
   return *std::move(found);
@@ -125,8 +160,25 @@ std::optional<FitSummary> SubjectTracker::FindElsewhere(const Observation& obser
 }
 
 BodyAreas SubjectTracker::MeasureAreas(const Observation& observation, const FitSummary& fit) {
-  return watch_->meter.Measure(fit.surface.vertices, fit.surface.camera_from_rest,
-                               *observation.depth, NearnessOf(settings_.fit));
+  return area_meter_->Measure(fit.surface.vertices, fit.surface.camera_from_rest,
+                              *observation.depth, NearnessOf(settings_.fit));
+}
+
+std::vector<JointSupport> SubjectTracker::SupportsOf(const Observation& observation,
+                                                     const FitSummary& fit) {
+  const BodyAreas areas = MeasureAreas(observation, fit);
+  const std::array<double, kBoneCount> bends_rad = BendsOf(model_.skeleton, fit.pose);
+  std::vector<JointSupport> supports(kBoneCount);
+  for (int bone = 0; bone < kBoneCount; ++bone) {
+    const int visible = fit.counts.visible[bone], parent = Bones()[bone].parent;
+    JointSupport& support = supports[bone];
+    support.confirmed =
+        visible > 0 ? static_cast<double>(fit.counts.confirmed[bone]) / visible : 0.0;
+    support.disagreement = std::max(areas.bones[bone].disagreement(),
+                                    parent < 0 ? 0.0 : areas.bones[parent].disagreement());
+    support.bend_rad = std::max(bends_rad[bone], parent < 0 ? 0.0 : bends_rad[parent]);
+  }
+  return supports;
 }
 
 // Result of a frame that cannot be fitted: the last pose, or the rest pose at the camera if no
@@ -147,8 +199,8 @@ SubjectTracker::Ending SubjectTracker::EndingOf(const FitSummary& fit) const {
   if (fit.agreement.presence() < settings_.lost_below || loss_detector_.is_lost()) {
     return {Outcome::kLost, loss_detector_.MessageOf(fit.agreement)};
   }
-  if (watch_ && watch_->verdict.is_lost()) {
-    return {Outcome::kLost, watch_->verdict.message()};
+  if (watch_ && watch_->is_lost()) {
+    return {Outcome::kLost, watch_->message()};
   }
   if (!fit.solved) {
     return {Outcome::kLost,
@@ -172,7 +224,7 @@ TrackResult SubjectTracker::Result(FitSummary fit, Ending ending) const {
   result.camera_from_rest = std::move(fit.surface.camera_from_rest);
   result.joints = PosedJoints(model_.skeleton, result.camera_from_rest);
   if (settings_.uncertainty.IsAsked())
-    ReportUncertainty(fit.unit_covariances, settings_.uncertainty, result);
+    ReportUncertainty(fit.unit_covariances, fit.supports, settings_.uncertainty, result);
   result.iterations = fit.iterations;
   for (std::size_t k = 0; k < kEnergyTermCount; ++k) {
     result.energies.push_back({Name(static_cast<EnergyTerm>(k)), fit.energies[k]});

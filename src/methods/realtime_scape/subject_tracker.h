@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "methods/realtime_scape/facing.h"
 #include "methods/realtime_scape/limb_finder.h"
 #include "methods/realtime_scape/relocalizer.h"
 #include "tracking/area_watch.h"
@@ -28,17 +29,14 @@ class SubjectTracker {
   std::optional<PoseHistory> FirstPose(const Observation& observation, const KnownJoints& known);
   PoseHistory Place(const PointCloud& cloud) const;
   FitSummary TakeBetterPose(const Observation& observation, FitSummary fit, bool is_first);
+  FitSummary TakeOtherFacing(const Observation& observation, FitSummary fit);
   FitSummary TakeFoundLimb(const Observation& observation, FitSummary fit);
   TrackResult CarryOver(Ending ending);
   Ending EndingOf(const FitSummary& fit) const;
   TrackResult Result(FitSummary fit, Ending ending) const;
 
-  // Monitoring of areas, if enabled in the settings.
-  struct Watch {
-    BodyAreaMeter meter;
-    AreaWatch verdict;
-  };
   std::optional<FitSummary> FindElsewhere(const Observation& observation, const FitSummary& fit);
+  std::vector<JointSupport> SupportsOf(const Observation& observation, const FitSummary& fit);
   BodyAreas MeasureAreas(const Observation& observation, const FitSummary& fit);
 
   PinholeCamera camera_;
@@ -46,10 +44,12 @@ class SubjectTracker {
   Model model_;
   Observer observer_;
   PoseFitter fitter_;
-  std::optional<LimbFinder> limb_finder_;  // if enabled in the settings
+  std::optional<FacingCheck> facing_check_;  // if enabled in the settings
+  std::optional<LimbFinder> limb_finder_;    // if enabled in the settings
   Relocalizer relocalizer_;
   LossDetector loss_detector_;
-  std::optional<Watch> watch_;
+  std::optional<AreaWatch> watch_;           // if enabled in the settings
+  std::optional<BodyAreaMeter> area_meter_;  // of the watch and of joint supports
   std::optional<StartSearch> start_search_;
   std::string start_message_;  // of the last search
   StepClock<RealtimeScapeStep> clock_;
