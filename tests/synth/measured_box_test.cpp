@@ -40,7 +40,9 @@ TEST(NormalDraws, LeavesOutWithoutAnEffectOnOthers) {
       const bool is_needed = (needed >> i & 1) != 0;
       const double expected = all.Normal();
       EXPECT_EQ(draws.Next(is_needed), is_needed ? expected : 0.0) << needed << " at " << i;
-      if (i % 3 == 2) EXPECT_EQ(some.Uniform(), all.Uniform()) << needed << " at " << i;
+      if (i % 3 == 2) {
+        EXPECT_EQ(some.Uniform(), all.Uniform()) << needed << " at " << i;
+      }
     }
     EXPECT_EQ(some.NextBits(), all.NextBits());
   }
