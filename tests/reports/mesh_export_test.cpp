@@ -82,8 +82,8 @@ TEST_F(MeshExport, CollectionsNameAllFramesWithTheirTimes) {
 }
 
 TEST_F(MeshExport, FramesThatAreNotThereAndStrangersFoldersAreRefused) {
-  EXPECT_THROW(ExportMeshes(experiment_, kWavingRun, {kSyntheticFrames}, meshes_), DataError);
-  EXPECT_THROW(ExportMeshes(experiment_, kWavingRun, {-1}, meshes_), DataError);
+  EXPECT_THROW(ExportMeshes(experiment_, kWavingRun, {kSyntheticFrames}, meshes_), ConfigError);
+  EXPECT_THROW(ExportMeshes(experiment_, kWavingRun, {-1}, meshes_), ConfigError);
   EXPECT_THROW(ExportMeshes(experiment_, kMissingRun, {0}, meshes_), DataError);
   EXPECT_FALSE(fs::exists(meshes_));
   MakeFolder(meshes_ / "thesis");

@@ -183,7 +183,7 @@ TEST_F(OtherExports, TableHoldsEstimateAndTruth) {
 }
 
 TEST_F(OtherExports, FrameThatIsNotThereIsRefused) {
-  EXPECT_THROW(ExportGltf(experiment_, kWavingRun, {99}, folder_ / "run.glb"), DataError);
+  EXPECT_THROW(ExportGltf(experiment_, kWavingRun, {99}, folder_ / "run.glb"), ConfigError);
   EXPECT_FALSE(fs::exists(folder_ / "run.glb"));
 }
 
