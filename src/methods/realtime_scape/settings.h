@@ -138,7 +138,7 @@ struct LimbSettings {
 // Search for the other facing (facing.h).
 struct FacingSettings {
   double margin_m = 0.006;  // 0: facing is not checked
-  int pause = 5;          // frames
+  int pause = 5;            // frames
   void Describe(Fields& fields);
 };
 
