@@ -13,8 +13,8 @@ inline std::vector<int> EvenlySpread(int all, int count) {
   const int taken = std::min(all, count);
   std::vector<int> indices;
   for (int i = 0; i < taken; ++i) {
-    indices.push_back(
-        taken == 1 ? 0 : static_cast<int>(std::lround(i * (all - 1.0) / (taken - 1.0))));
+    indices.push_back(taken == 1 ? 0
+                                 : static_cast<int>(std::lround(i * (all - 1.0) / (taken - 1.0))));
   }
   return indices;
 }
