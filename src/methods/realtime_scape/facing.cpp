@@ -31,7 +31,9 @@ std::optional<FitSummary> FacingCheck::Search(const Observation& observation,
 
   const double margin_m2 = settings_.facing.margin_m * settings_.facing.margin_m;
   fitter_.Compare(observation, current.pose);
-  double least_m2 = GapTo(observation, fitter_.rendered()) - margin_m2;
+  const double current_m2 = GapTo(observation, fitter_.rendered());
+  double least_m2 =
+      std::min(current_m2 - margin_m2, (1.0 - settings_.facing.least_decrease) * current_m2);
   std::optional<FitSummary> best;
   // The body has turned where it was, or has been tracked the wrong way round for some time.
   const Matrix3<double> about_trunk = last.front().rotation *

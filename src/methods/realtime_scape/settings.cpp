@@ -93,6 +93,14 @@ void FacingSettings::Describe(Fields& f) {
             .origin = Origin::kTuned,
             .source = "half_turn of stability/realtime_scape"});
   if (!f.Applies(margin_m > 0.0)) return;
+  f.Number("least_decrease", least_decrease,
+           {.meaning = "share by which the exchanged pose must lower the mean square of these "
+                       "differences too: noise of some centimetres makes them vary by more than "
+                       "margin_m",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kTuned,
+            .source = "half_turn of stability/realtime_scape, noise and few_pairs of causes"});
   f.Integer("pause", pause,
             {.meaning = "least number of frames between two such trials; doubled by each trial "
                         "that finds nothing",

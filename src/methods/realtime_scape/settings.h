@@ -137,8 +137,9 @@ struct LimbSettings {
 
 // Search for the other facing (facing.h).
 struct FacingSettings {
-  double margin_m = 0.006;  // 0: facing is not checked
-  int pause = 5;            // frames
+  double margin_m = 0.006;       // 0: facing is not checked
+  double least_decrease = 0.35;  // share of the squared gap
+  int pause = 5;                 // frames
   void Describe(Fields& fields);
 };
 
