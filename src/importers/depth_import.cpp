@@ -233,9 +233,8 @@ ChosenPerson RequirePerson(const FollowedRecording& found, const DepthImportSett
   throw DataError(fmt::format(
       "{}: no person is found in any of {} frames: in front of the room the largest piece has "
       "{:.2g} m², the largest pieces are up to {:.2g} m high; expected at least {:g} m² and {:g} "
-      "to {:g} "
-      "m (cutout.person.size). Does the person stand still all the time, so that they count as "
-      "background (cutout.background), or beyond far_m ({:g} m)?",
+      "to {:g} m (cutout.person.size). Does the person stand still all the time, so that they "
+      "count as background (cutout.background), or beyond far_m ({:g} m)?",
       where, found.labels.size(), found.largest_piece_m2, found.tallest_piece_m,
       person.size.least_area_m2, person.size.least_height_m, person.size.most_height_m,
       s.cutout.far_m));

@@ -1,7 +1,5 @@
 #include "tracking/area_watch.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 namespace vitruvia {
@@ -69,14 +67,12 @@ void AreaWatch::Assess(const BodyAreas& areas) {
   frames_agreed_ = disagreement_ < settings_.found_below ? frames_agreed_ + 1 : 0;
   if (frames_agreed_ >= settings_.found_frames) is_lost_ = false;
 
-  frames_until_search_ = std::max(frames_until_search_ - 1, 0);
+  pause_.NextFrame();
   const bool is_other_body =
       areas.stray_m2 > settings_.other_body_share * areas.total().visible_m2();
-  if (!is_other_body) pause_ = frames_until_search_ = 0;
-  is_search_due_ = is_lost_ && is_other_body && frames_until_search_ == 0;
-  if (!is_search_due_) return;
-  pause_ = std::max(2 * pause_, settings_.search_pause);
-  frames_until_search_ = pause_;
+  if (!is_other_body) pause_.Reset();
+  is_search_due_ = is_lost_ && is_other_body && pause_.is_over();
+  if (is_search_due_) pause_.Begin();
 }
 
 std::string AreaWatch::message() const {
@@ -88,8 +84,8 @@ void AreaWatch::NoteFound(const BodyAreas& areas) {
   disagreement_ = areas.disagreement();
   is_lost_ = disagreement_ > settings_.lost_above;
   frames_agreed_ = 0;
-  pause_ = settings_.search_pause;
-  frames_until_search_ = pause_;
+  pause_.Reset();
+  pause_.Begin();
 }
 
 }  // namespace vitruvia

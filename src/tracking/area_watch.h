@@ -5,6 +5,7 @@
 
 #include "config/settings.h"
 #include "tracking/body_areas.h"
+#include "tracking/search_pause.h"
 
 namespace vitruvia {
 
@@ -22,7 +23,8 @@ struct AreaWatchSettings {
 
 class AreaWatch {
  public:
-  explicit AreaWatch(const AreaWatchSettings& settings) : settings_(settings) {}
+  explicit AreaWatch(const AreaWatchSettings& settings)
+      : settings_(settings), pause_(settings.search_pause) {}
 
   // To be called once for each frame with measurements. The subject is lost when the disagreement
   // exceeds `lost_above`, and until it has been below `found_below` for `found_frames` frames.
@@ -41,7 +43,7 @@ class AreaWatch {
   AreaWatchSettings settings_;
   bool is_lost_ = false, is_search_due_ = false;
   int frames_agreed_ = 0;
-  int frames_until_search_ = 0, pause_ = 0;
+  SearchPause pause_;
   double disagreement_ = 0.0;
 };
 

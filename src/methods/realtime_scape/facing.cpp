@@ -22,7 +22,10 @@ BodyPose FacingAway(const Model& model, const BodyPose& pose) {
 }
 
 FacingCheck::FacingCheck(const Model& model, const PinholeCamera& camera, const Settings& settings)
-    : model_(model), settings_(settings), fitter_(model, camera, settings) {}
+    : model_(model),
+      settings_(settings),
+      fitter_(model, camera, settings),
+      pause_(settings.facing.pause) {}
 
 std::optional<FitSummary> FacingCheck::Search(const Observation& observation,
                                               const FitSummary& current, const DepthImage& rendered,
@@ -41,17 +44,13 @@ std::optional<FitSummary> FacingCheck::Search(const Observation& observation,
                                       last.front().rotation.transpose();
   for (const BodyPose& pose :
        {RotatedAboutRoot(last, about_trunk), FacingAway(model_, current.pose)}) {
-    FitSummary fit = fitter_.Fit(observation, AtRest(pose), {pose, LocalRotationsOf(pose)},
-                                 settings_.stopping.first_frame_iterations);
-    const PoseCheck reached = fitter_.Compare(observation, fit.pose);
+    FitSummary fit = fitter_.Refine(observation, pose, settings_.stopping.first_frame_iterations);
     const double reached_m2 = GapTo(observation, fitter_.rendered());
     if (!fit.solved || reached_m2 >= least_m2) continue;
     least_m2 = reached_m2;
-    fit.agreement = reached.agreement;
-    fit.counts = reached.counts;
     best = std::move(fit);
   }
-  if (best) pause_ = frames_until_search_ = 0;
+  if (best) pause_.Reset();
   return best;
 }
 
@@ -60,15 +59,14 @@ bool FacingCheck::IsDue(double gap_m2) {
   constexpr double kFollow = 0.05;  // share of a new gap in the usual one
   if (usual_m2_ < 0.0) usual_m2_ = gap_m2;
   const double margin_m2 = settings_.facing.margin_m * settings_.facing.margin_m;
-  frames_until_search_ = std::max(frames_until_search_ - 1, 0);
+  pause_.NextFrame();
   if (gap_m2 <= usual_m2_ + margin_m2) {
     usual_m2_ += kFollow * (gap_m2 - usual_m2_);
-    pause_ = frames_until_search_ = 0;
+    pause_.Reset();
     return false;
   }
-  if (frames_until_search_ > 0) return false;
-  pause_ = std::max(2 * pause_, settings_.facing.pause);
-  frames_until_search_ = pause_;
+  if (!pause_.is_over()) return false;
+  pause_.Begin();
   return true;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "methods/realtime_scape/pose_fitter.h"
+#include "tracking/search_pause.h"
 
 namespace vitruvia::realtime_scape {
 
@@ -33,7 +34,7 @@ class FacingCheck {
   Settings settings_;
   PoseFitter fitter_;
   double usual_m2_ = -1.0;  // gap; negative before the first frame
-  int pause_ = 0, frames_until_search_ = 0;
+  SearchPause pause_;
 };
 
 }  // namespace vitruvia::realtime_scape

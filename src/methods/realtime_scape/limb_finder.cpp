@@ -125,12 +125,8 @@ std::optional<FitSummary> LimbFinder::Search(const Observation& observation,
   std::optional<FitSummary> best;
   Agreement best_agreement = now.agreement;
   for (std::size_t k = 0; k < refined; ++k) {
-    const BodyPose& pose = hypotheses[k].pose;
-    FitSummary fit = fitter_.Fit(observation, AtRest(pose), {pose, LocalRotationsOf(pose)},
-                                 settings_.stopping.max_iterations);
-    const PoseCheck reached = fitter_.Compare(observation, fit.pose);
-    fit.agreement = reached.agreement;
-    fit.counts = reached.counts;
+    FitSummary fit =
+        fitter_.Refine(observation, hypotheses[k].pose, settings_.stopping.max_iterations);
     if (!fit.solved || fit.agreement.score() < best_agreement.score() + settings_.limbs.margin)
       continue;
     best_agreement = fit.agreement;

@@ -87,6 +87,15 @@ PoseCheck PoseFitter::Compare(const Observation& observation, const BodyPose& po
           classification.counts};
 }
 
+FitSummary PoseFitter::Refine(const Observation& observation, const BodyPose& pose,
+                              int max_iterations) {
+  FitSummary fit = Fit(observation, AtRest(pose), {pose, LocalRotationsOf(pose)}, max_iterations);
+  const PoseCheck reached = Compare(observation, fit.pose);
+  fit.agreement = reached.agreement;
+  fit.counts = reached.counts;
+  return fit;
+}
+
 Vector3d PoseFitter::VisibleCentroid(const BodyPose& pose) {
   const PosedSurface& surface = Pose(pose);
   const RenderedView& view = Render(surface);

@@ -59,6 +59,9 @@ class PoseFitter {
 
   // Lines 5 and 7 for a pose, without iterations.
   PoseCheck Compare(const Observation& observation, const BodyPose& pose);
+  // Fits a hypothesis: a body at rest in `pose`. Agreement and counts are those of the pose that is
+  // reached, which is compared last.
+  FitSummary Refine(const Observation& observation, const BodyPose& pose, int max_iterations);
   // Points of the cloud that the pose of the last Fit or Compare does not explain, by their
   // indices.
   const std::vector<int>& unexplained() const { return classification_.unexplained; }

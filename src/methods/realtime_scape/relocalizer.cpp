@@ -16,12 +16,7 @@ class Relocalizer::Tester {
   Agreement Compare(const BodyPose& pose) { return fitter_.Compare(observation_, pose).agreement; }
 
   FitSummary Refine(const BodyPose& pose) {
-    FitSummary fit =
-        fitter_.Fit(observation_, AtRest(pose), {pose, LocalRotationsOf(pose)}, max_iterations_);
-    const PoseCheck reached = fitter_.Compare(observation_, fit.pose);
-    fit.agreement = reached.agreement;
-    fit.counts = reached.counts;
-    return fit;
+    return fitter_.Refine(observation_, pose, max_iterations_);
   }
 
  private:
