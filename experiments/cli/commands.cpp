@@ -15,6 +15,7 @@
 #include "core/message.h"
 #include "core/progress.h"
 #include "core/write_failure.h"
+#include "experiments/cli/argument_checks.h"
 #include "experiments/cli/compare_command.h"
 #include "experiments/cli/explain_command.h"
 #include "experiments/cli/export_command.h"
@@ -79,6 +80,14 @@ void List() {
   PrintConfigs("configs");
 }
 
+// Of all commands: an empty text is never a choice.
+void RefuseEmptyArguments(CLI::App& app) {
+  for (CLI::Option* option : app.get_options()) {
+    if (option->get_items_expected_max() > 0) option->check(NotEmpty());
+  }
+  for (CLI::App* command : app.get_subcommands({})) RefuseEmptyArguments(*command);
+}
+
 void AddCommands(CLI::App& app) {
   app.set_version_flag("--version", VersionText());
   app.require_subcommand(0, 1);  // CLI11's own demand for one would hide a misspelt command's name
@@ -111,6 +120,7 @@ void AddCommands(CLI::App& app) {
   AddRigCommand(app);
   AddSubjectCommand(app);
   AddExplainCommand(app);
+  RefuseEmptyArguments(app);
 }
 
 }  // namespace

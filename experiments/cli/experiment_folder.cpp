@@ -4,7 +4,6 @@
 
 #include "core/error.h"
 #include "core/pattern.h"
-#include "experiments/cli/argument_checks.h"
 #include "experiments/run/experiment_files.h"
 #include "experiments/studies/planned_experiment.h"
 
@@ -40,14 +39,12 @@ std::vector<std::string> RunsMatching(const ExperimentRecord& experiment, const 
 }
 
 void AddOnlyOption(CLI::App& command, std::string& only) {
-  command.add_option("--only", only, "only runs whose id matches this pattern (* ? [abc])")
-      ->check(NotEmpty());
+  command.add_option("--only", only, "only runs whose id matches this pattern (* ? [abc])");
 }
 
 void AddExperimentArgument(CLI::App& command, fs::path& experiment, fs::path& output) {
   command.add_option("EXPERIMENT", experiment, "experiment file, or the folder of its output")
-      ->required()
-      ->check(NotEmpty());
+      ->required();
   command.add_option("-o,--output", output,
                      "the folder of an experiment file's output; without it out/NAME");
 }

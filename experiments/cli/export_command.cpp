@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "experiments/cli/experiment_folder.h"
+#include "experiments/cli/problems.h"
 #include "records/run_record.h"
 #include "reports/export/gltf_export.h"
 #include "reports/export/joint_export.h"
@@ -49,18 +50,22 @@ std::pair<fs::path, int> ExportRun(const fs::path& experiment, const std::string
 
 void Export(const ExportArguments& arguments) {
   int runs = 0;
+  SkippedRuns skipped;
   const ExperimentRecord experiment = ReadExperimentRecord(arguments.folder);
   for (const std::string& run_id : RunsMatching(experiment, arguments.only)) {
     if (!fs::is_directory(arguments.folder / run_id / "estimate")) continue;
-    for (const Format format : arguments.formats) {
-      const auto [file, frames] = ExportRun(arguments.folder, run_id, format, arguments.frames);
-      fmt::print("{}: {} frames\n", file.string(), frames);
-    }
+    skipped.SkipIfUnreadable(run_id, [&] {
+      for (const Format format : arguments.formats) {
+        const auto [file, frames] = ExportRun(arguments.folder, run_id, format, arguments.frames);
+        fmt::print("{}: {} frames\n", file.string(), frames);
+      }
+    });
     ++runs;
   }
   if (runs == 0)
     throw DataError(
         fmt::format("{}: holds no run with an estimate to export", arguments.folder.string()));
+  skipped.RequireNone(arguments.folder);
 }
 
 }  // namespace

@@ -40,8 +40,11 @@ void PrintList(const std::vector<ReproducedFigure>& figures) {
 }
 
 // "index.html", or named after the chosen figures, so that a part does not replace the whole.
-std::string PageName(const std::vector<std::string>& only) {
-  return only.empty() ? "index.html" : fmt::format("{}.html", fmt::join(only, "-"));
+std::string PageName(const ReproductionList& list, const std::vector<ReproducedFigure>& chosen) {
+  if (chosen.size() == list.figures.size()) return "index.html";
+  std::vector<std::string> ids;
+  for (const ReproducedFigure& figure : chosen) ids.push_back(figure.id);
+  return fmt::format("{}.html", fmt::join(ids, "-"));
 }
 
 int FailedRuns(const std::vector<FigureRecords>& figures) {
@@ -72,7 +75,7 @@ void Reproduce(const ReproduceArguments& a) {
   PrintVerdicts(result.figures);
   for (const ExperimentTime& time : result.times)
     fmt::print("{:>7.1f} s  {}\n", time.seconds, ConfigName(time.experiment));
-  const fs::path page = a.output / PageName(a.only);
+  const fs::path page = a.output / PageName(list, figures);
   WriteReproductionPage(list, result.figures, page);
   fmt::print("page: {}\n", page.string());
   if (const int failed = FailedRuns(result.figures); failed > 0)

@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 
 #include "core/error.h"
-#include "core/message.h"
 #include "experiments/cli/experiment_folder.h"
+#include "experiments/cli/problems.h"
 #include "experiments/plan/experiment_config.h"
 #include "experiments/run/experiment_files.h"
 #include "experiments/run/run_state.h"
@@ -15,10 +15,6 @@
 namespace vitruvia {
 namespace fs = std::filesystem;
 namespace {
-
-struct Counts {
-  int rescored = 0, changed = 0, damaged = 0;
-};
 
 // Without the provenance, which says who computed the metrics.
 nlohmann::json ResultsOf(const RunRecord& record) {
@@ -38,22 +34,9 @@ bool RescoreRun(const fs::path& folder, const std::string& run_id,
   return ResultsOf(before) != ResultsOf(after);
 }
 
-// A run whose record or estimate cannot be read is named and left as it is.
-void RescoreIfReadable(const fs::path& folder, const std::string& run_id,
-                       const std::vector<FrameSummary>& summaries, Counts& counts) {
-  try {
-    const bool differs = RescoreRun(folder, run_id, summaries);
-    fmt::print("{}: {}\n", run_id, differs ? "changed" : "the same");
-    ++counts.rescored;
-    counts.changed += differs ? 1 : 0;
-  } catch (const DataError& error) {
-    PrintMessage("{}: skipped: {}\n", run_id, error.what());
-    ++counts.damaged;
-  }
-}
-
 void Rescore(const fs::path& folder, const std::string& only) {
-  Counts counts;
+  int rescored = 0, changed = 0;
+  SkippedRuns skipped;
   const ExperimentRecord experiment = ReadExperimentRecord(folder);
   for (const std::string& run_id : RunsMatching(experiment, only)) {
     if (!fs::exists(folder / run_id / "record.json")) continue;
@@ -61,18 +44,19 @@ void Rescore(const fs::path& folder, const std::string& only) {
       fmt::print("{}: has no estimate, its record stays as it is\n", run_id);
       continue;
     }
-    RescoreIfReadable(folder, run_id, experiment.summaries, counts);
+    skipped.SkipIfUnreadable(run_id, [&] {
+      const bool differs = RescoreRun(folder, run_id, experiment.summaries);
+      fmt::print("{}: {}\n", run_id, differs ? "changed" : "the same");
+      ++rescored;
+      changed += differs ? 1 : 0;
+    });
   }
-  if (counts.rescored + counts.damaged == 0)
+  if (rescored + skipped.count() == 0)
     throw DataError(fmt::format("{}: holds no run to score again", folder.string()));
   WriteSummary(folder);
-  fmt::print("{} runs scored again, {} changed; vitruvia report {} draws them\n", counts.rescored,
-             counts.changed, folder.string());
-  if (counts.damaged > 0)
-    throw DataError(
-        fmt::format("{}: {} runs could not be read and were skipped; vitruvia run --again "
-                    "--only RUN carries one out anew",
-                    folder.string(), counts.damaged));
+  fmt::print("{} runs scored again, {} changed; vitruvia report {} draws them\n", rescored, changed,
+             folder.string());
+  skipped.RequireNone(folder);
 }
 
 // What the experiment file says now of how runs are summarised and shown goes into the folder.

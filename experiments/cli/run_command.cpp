@@ -9,7 +9,6 @@
 #include "analysis/printed_metric.h"
 #include "core/error.h"
 #include "core/message.h"
-#include "experiments/cli/argument_checks.h"
 #include "experiments/plan/run_selection.h"
 #include "experiments/run/experiment_files.h"
 #include "experiments/run/machine_lock.h"
@@ -201,15 +200,13 @@ void Run(const RunArguments& arguments) {
 void AddRunCommand(CLI::App& app) {
   auto a = std::make_shared<RunArguments>();
   CLI::App* run = app.add_subcommand("run", "Run an experiment and write its report");
-  run->add_option("EXPERIMENT", a->experiment, "experiment file")->required()->check(NotEmpty());
+  run->add_option("EXPERIMENT", a->experiment, "experiment file")->required();
   run->add_option("-o,--output", a->output, "the experiment's folder; without it out/NAME");
   run->add_option("--only", a->selection.only,
-                  "only runs whose id, variant or scene matches this pattern (* ? [abc])")
-      ->check(NotEmpty());
+                  "only runs whose id, variant or scene matches this pattern (* ? [abc])");
   run->add_option(
-         "--shard", a->selection.shard,
-         "i/n: only every n-th run, beginning with the i-th; the shards share one output folder")
-      ->check(NotEmpty());
+      "--shard", a->selection.shard,
+      "i/n: only every n-th run, beginning with the i-th; the shards share one output folder");
   run->add_option("-j,--jobs", a->jobs,
                   "number of concurrent runs; timed runs are executed one by one")
       ->check(CLI::Range(1, kMostJobs));

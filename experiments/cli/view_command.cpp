@@ -7,6 +7,7 @@
 
 #include "analysis/experiment_runs.h"
 #include "core/error.h"
+#include "experiments/cli/problems.h"
 #include "reports/pages/report.h"
 #include "reports/viewer/viewer.h"
 
@@ -35,12 +36,14 @@ bool IsUpToDate(const fs::path& page, const fs::path& run_folder) {
 // them.
 void ViewExperiment(const fs::path& folder, const ViewerLimits& limits) {
   const ReportedExperiment experiment = ReadExperiment(folder);
+  SkippedRuns skipped;
   for (const RunRecord* run : experiment.finished()) {
     const fs::path run_folder = folder / run->run_id, page = run_folder / kViewerPage;
     if (!run->frames.empty() && !IsUpToDate(page, run_folder))
-      WritePage({run_folder}, limits, page);
+      skipped.SkipIfUnreadable(run->run_id, [&] { WritePage({run_folder}, limits, page); });
   }
   fmt::print("report: {}\n", WriteReport(folder).string());
+  skipped.RequireNone(folder);
 }
 
 void View(const ViewArguments& arguments) {

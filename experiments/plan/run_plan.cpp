@@ -171,6 +171,18 @@ void RequireDifferentRuns(const std::vector<RunPlan>& runs, const fs::path& file
   }
 }
 
+void RequirePictureFrames(const ExperimentPlan& plan, const fs::path& file) {
+  int frames = 0;
+  for (const RunPlan& run : plan.runs) frames = std::max(frames, run.frames);
+  for (const int frame : plan.record.picture_frames) {
+    if (frame < frames) continue;
+    throw ConfigError(fmt::format(
+        "{}: picture_frames: no run has a frame {}; expected at most {}, the last frame of the "
+        "longest run",
+        file.string(), frame, frames - 1));
+  }
+}
+
 template <class Settings>
 Settings ReadResolved(const Json& resolved, const char* key) {
   return ReadSettings<Settings>(resolved.at(key), ResolvedOrigin(key));
@@ -233,6 +245,7 @@ ExperimentPlan PlanExperiment(const ExperimentSettings& settings, const fs::path
     }
   }
   RequireDifferentRuns(plan.runs, experiment_file);
+  RequirePictureFrames(plan, experiment_file);
   for (const RunPlan& run : plan.runs) plan.record.run_ids.push_back(run.run_id);
   return plan;
 }

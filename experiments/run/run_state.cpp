@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "records/estimate.h"
 #include "records/run_record.h"
 
 namespace vitruvia {
@@ -31,6 +32,8 @@ RunStatus StatusOfDone(const fs::path& run_folder) {
   try {
     const RunRecord record =
         ReadRunRecord(run_folder.parent_path(), run_folder.filename().string());
+    if (std::string missing = MissingEstimateFile(run_folder / "estimate"); !missing.empty())
+      return {RunState::kDamaged, std::move(missing), {}};
     return {RunState::kDone, "", FrameFailuresOf(record.summary)};
   } catch (const DataError& error) {
     return {RunState::kDamaged, error.what(), {}};

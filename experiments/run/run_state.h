@@ -21,7 +21,7 @@ enum class RunState {
   kDone,     // by this program, with these settings and files
   kFailed,   // by this program, with these settings and files; the next call of `run` tries it
              // again
-  kDamaged,  // done, but its record cannot be read any more
+  kDamaged,  // done, but its record cannot be read any more or a file of its estimate is gone
   kStale,    // done or failed with other settings or files, or by another build
   kRunning,  // a process carries it out now
   kMissing,  // not carried out, or interrupted

@@ -31,7 +31,11 @@ bool ChangesSettings(const ExperimentReduction* reduction) {
 Experiment PlanReduced(const fs::path& file, const ExperimentReduction& reduction,
                        const WorkFolders& work) {
   auto settings = ReadSettingsFile<ExperimentSettings>(file);
-  if (reduction.most_frames > 0) settings.most_frames = reduction.most_frames;
+  if (reduction.most_frames > 0) {
+    settings.most_frames = reduction.most_frames;
+    std::erase_if(settings.picture_frames,
+                  [&](int frame) { return frame >= reduction.most_frames; });
+  }
   if (!reduction.seeds.empty()) settings.seeds = reduction.seeds;
   const ExperimentPlan plan = PlanExperiment(settings, file);
   return {plan.record, plan.failed_frames_limit, PlannedRuns(plan, work)};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "config/build_cache.h"
 #include "core/error.h"
@@ -41,6 +42,18 @@ void Flatten(const nlohmann::json& json, const std::string& key,
     Flatten(item.value(), key.empty() ? item.key() : key + "." + item.key(), settings);
 }
 
+// Absolute paths shortened to the names of their files: machines keep the same file in different
+// folders.
+nlohmann::json WithoutFolders(nlohmann::json config) {
+  if (config.is_structured()) {
+    for (nlohmann::json& value : config) value = WithoutFolders(std::move(value));
+  } else if (config.is_string()) {
+    const std::filesystem::path path = config.get<std::string>();
+    if (path.is_absolute()) config = path.filename().string();
+  }
+  return config;
+}
+
 bool IsSame(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
 }  // namespace
@@ -69,8 +82,9 @@ GatedRun MakeGatedRun(const std::string& experiment, std::span<const RunRecord> 
   }
   gated.times_ms = TimesOfAll(repeats);
   if (!first.config.is_object()) return gated;
-  gated.config_hash = SettingsHash(first.config);
-  Flatten(first.config, "", gated.settings);
+  const nlohmann::json config = WithoutFolders(first.config);
+  gated.config_hash = SettingsHash(config);
+  Flatten(config, "", gated.settings);
   return gated;
 }
 

@@ -35,8 +35,8 @@ struct GatedRun {
   // Median time per frame in each repeat, ms, by name of a total time (kWholeTimes) or a step.
   // Comparable only with times of the same session on the same machine.
   std::map<std::string, std::vector<double>> times_ms;
-  // Hash of the resolved config, and its settings as JSON by dotted key. Empty in files of older
-  // programs; only a baseline stores the settings.
+  // Hash of the resolved config, and its settings as JSON by dotted key; a file counts by its name,
+  // not by its folder. Empty in files of older programs; only a baseline stores the settings.
   std::string config_hash{};
   std::map<std::string, std::string> settings{};
 

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <compare>
 #include <map>
+#include <string_view>
 #include <tuple>
 
 #include "core/error.h"
@@ -21,8 +22,8 @@ struct Number {
   std::string digits;
 
   std::strong_ordering operator<=>(const Number& other) const {
-    const auto by_length = digits.size() <=> other.digits.size();
-    return by_length != 0 ? by_length : digits.compare(other.digits) <=> 0;
+    return std::tuple(digits.size(), std::string_view(digits)) <=>
+           std::tuple(other.digits.size(), std::string_view(other.digits));
   }
   bool operator==(const Number&) const = default;
 };

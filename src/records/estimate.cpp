@@ -214,6 +214,14 @@ void EstimateWriter::Finish(std::optional<double> tracker_memory_mb) {
   state_->folder.Commit();
 }
 
+std::string MissingEstimateFile(const fs::path& folder) {
+  if (!fs::exists(folder)) return "";
+  for (const char* file : {kIndexFile, kMeshFile, kVerticesFile}) {
+    if (!fs::exists(folder / file)) return fmt::format("{}: is gone", (folder / file).string());
+  }
+  return "";
+}
+
 EstimateReader::EstimateReader(fs::path folder) : folder_(std::move(folder)) {
   const fs::path index_file = folder_ / kIndexFile;
   file_ = ReadStored<EstimateFile>(index_file);

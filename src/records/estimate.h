@@ -63,6 +63,10 @@ class EstimateWriter {
   std::unique_ptr<State> state_;
 };
 
+// What a folder of an estimate lacks, from the presence of its files alone; "" if nothing, or if
+// there is no such folder: a run's estimate may be deleted to save space.
+std::string MissingEstimateFile(const std::filesystem::path& folder);
+
 // Throws DataError if a file is missing, damaged or of the wrong size.
 class EstimateReader {
  public:

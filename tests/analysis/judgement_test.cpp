@@ -249,6 +249,15 @@ TEST(Judge, BlamesNoCommitWhereTheSettingsDifferAndSaysWhich) {
   EXPECT_THAT(ChangedSettings(old, is), ElementsAre(HasSubstr("does not hold its settings")));
 }
 
+TEST(Judge, AFileInAnotherFolderIsTheSameSetting) {
+  const auto config = [](const char* clip) { return Json{{"motion", {{"file", clip}}}}; };
+  const GatedRun was = WithSettings(0.01, config("/here/02_01.amc"));
+  EXPECT_EQ(was.settings.at("motion.file"), "\"02_01.amc\"");
+  EXPECT_THAT(ChangedSettings(was, WithSettings(0.01, config("/there/cmu/02_01.amc"))), IsEmpty());
+  EXPECT_THAT(ChangedSettings(was, WithSettings(0.01, config("/here/02_05.amc"))),
+              ElementsAre("motion.file: \"02_01.amc\" → \"02_05.amc\""));
+}
+
 TEST(Judge, LooksForTheCommitInOccasionsOfTheSameSettingsOnly) {
   const Json config = {{"cutoff_m", 0.08}}, other = {{"cutoff_m", 0.1}};
   const auto entry = [](const char* commit, const GatedRun& run) -> HistoryEntry {

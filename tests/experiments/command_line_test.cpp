@@ -139,6 +139,9 @@ TEST_F(CommandLine, MisuseIsABadConfiguration) {
   ExpectRefusal({"explain", "axis_wieght"}, ExitCode::kBadConfiguration,
                 {"did you mean \"axis_weight\"?"});
   ExpectRefusal({"run", ""}, ExitCode::kBadConfiguration, {"EXPERIMENT: expected a value"});
+  ExpectRefusal({"verify", ""}, ExitCode::kBadConfiguration, {"SEQ: expected a value"});
+  ExpectRefusal({"import", "depth", "c.json", "-o", ""}, ExitCode::kBadConfiguration,
+                {"--output: expected a value"});
   ExpectRefusal({"report", File(""), "--font-size", "nan"}, ExitCode::kBadConfiguration,
                 {"--font-size: expected a number in 3 … 40, got nan"});
   ExpectRefusal({"subject", "--space", "s", "-o", "o", "--height", "nan"},
@@ -190,6 +193,9 @@ TEST_F(CommandLine, BadConfigsAreNamedAndNothingIsWritten) {
   e = Experiment();
   e["scenes"] = Json::array();
   refused(e, {"expected at least one scene file"});
+  e = Experiment();
+  e["picture_frames"] = {0, 12};
+  refused(e, {"picture_frames: no run has a frame 12", "at most 11"});
   e = Experiment();
   e["variants"] = {{{"name", "v"}, {"scene", {{"view", {{"camera", {{"width", 0}}}}}}}}};
   refused(e, {"view.camera.width: expected a whole number in 1", "got 0"});

@@ -125,6 +125,7 @@ class Reproduce : public testing::Test {
     files_.Write("experiment.json", {{"title", "Test"},
                                      {"scenes", {"scene.json"}},
                                      {"methods", {"method.json"}},
+                                     {"picture_frames", {0, 5}},  // the last one is left out
                                      {"seeds", {1, 2}}});
     WriteList(0.10);
   }
@@ -163,6 +164,10 @@ TEST_F(Reproduce, CarriesOutAPartWritesThePageAndKeepsWhatIsDone) {
   const Json summary = ReadJsonFile(files_ / "out/experiment/summary.json");
   ASSERT_EQ(summary.at("rows").size(), 2u);
   for (const Json& row : summary.at("rows")) EXPECT_EQ(row.at("frames"), 3);
+
+  // A figure that is named twice is shown once; all figures are the whole page.
+  EXPECT_THAT(Call({"--only", "A1,A1"}).out, HasSubstr("out/A1.html"));
+  EXPECT_THAT(Call({"--only", "B2,A1"}).out, HasSubstr("out/index.html"));
 
   // With another bound nothing is carried out again, and the verdict is another one.
   const auto stored = fs::last_write_time(files_ / "out/experiment/summary.json");

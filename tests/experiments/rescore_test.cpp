@@ -121,6 +121,19 @@ TEST_F(Rescore, WhatIsMissingOrAnotherIsTold) {
   ExpectRefusal({"rescore", out_.string()}, ExitCode::kBadData, {"vertices.bin"});
 }
 
+TEST_F(Rescore, ARunWithoutAFileOfItsEstimateIsSkippedByNameAndMadeAgain) {
+  const fs::path vertices = run_ / "estimate" / "vertices.bin";
+  fs::remove(vertices);
+  for (const char* command : {"rescore", "view", "export"})
+    ExpectRefusal({command, out_.string()}, ExitCode::kBadData,
+                  {run_.filename().string() + ": skipped: ", "vertices.bin",
+                   "1 run could not be read and was skipped"});
+  EXPECT_TRUE(fs::exists(out_ / "report.html"));
+  EXPECT_THAT(CallVitruvia({"status", out_.string()}).out, HasSubstr("damaged"));
+  EXPECT_EQ(CallVitruvia({"run", files_.File("experiment.json"), "-o", out_.string()}).code, 0);
+  EXPECT_TRUE(fs::exists(vertices));
+}
+
 // Its titles, columns and summaries would replace those of the experiment that was carried out.
 TEST_F(Rescore, AnotherExperimentsFileIsRefused) {
   files_.Write("other.json", SmallExperiment::Config());
