@@ -64,7 +64,7 @@ Eigen::MatrixXd Jacobian(const ShapedBody& body, const BodyState& state, const K
 
 }  // namespace
 
-BodyState FittedToJoints(const ShapedBody& body, BodyState start, const KnownJoints& known,
+BodyState FittedToJoints(const ShapedBody& body, const BodyState& start, const KnownJoints& known,
                          double angle_deviation_deg) {
   Require(!known.joints.empty(), "FittedToJoints: no joints");
   constexpr int kIterations = 10;

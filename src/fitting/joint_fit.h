@@ -20,7 +20,7 @@ struct KnownJoints {
 // The state whose joints best match the known ones (at least one): least squares within the joint
 // limits, with a prior on the angles about `start`. The body stays upright; its heading about the y
 // axis is free.
-BodyState FittedToJoints(const ShapedBody& body, BodyState start, const KnownJoints& known,
+BodyState FittedToJoints(const ShapedBody& body, const BodyState& start, const KnownJoints& known,
                          double angle_deviation_deg);
 
 }  // namespace vitruvia

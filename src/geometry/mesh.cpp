@@ -93,6 +93,27 @@ void ComputeVertexNormals(const std::vector<Vector3f>& vertices,
   }
 }
 
+void AppendSurface(const std::vector<Vector3f>& vertices, const std::vector<Triangle>& triangles,
+                   TriangleMesh& mesh) {
+  const auto first = static_cast<std::int32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), vertices.begin(), vertices.end());
+  for (const auto& [a, b, c] : triangles)
+    mesh.triangles.push_back({a + first, b + first, c + first});
+}
+
+double TriangleArea(const TriangleMesh& mesh, const Triangle& triangle) {
+  const Vector3d a = mesh.vertices[triangle[0]].cast<double>();
+  return 0.5 * (mesh.vertices[triangle[1]].cast<double>() - a)
+                   .cross(mesh.vertices[triangle[2]].cast<double>() - a)
+                   .norm();
+}
+
+double SurfaceArea(const TriangleMesh& mesh) {
+  double area_m2 = 0.0;
+  for (const Triangle& t : mesh.triangles) area_m2 += TriangleArea(mesh, t);
+  return area_m2;
+}
+
 double EnclosedVolume(const TriangleMesh& mesh) {
   if (mesh.vertices.empty()) return 0.0;
   const Vector3d origin = mesh.vertices.front().cast<double>();  // near the mesh: less cancellation

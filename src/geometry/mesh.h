@@ -32,6 +32,12 @@ TriangleMesh Triangulated(const QuadMesh& mesh);  // each quad split along its s
 void ComputeVertexNormals(const std::vector<Vector3f>& vertices,
                           const std::vector<Triangle>& triangles, std::vector<Vector3f>& normals);
 
+// Adds a surface to `mesh`.
+void AppendSurface(const std::vector<Vector3f>& vertices, const std::vector<Triangle>& triangles,
+                   TriangleMesh& mesh);
+
+double TriangleArea(const TriangleMesh& mesh, const Triangle& triangle);  // m²
+double SurfaceArea(const TriangleMesh& mesh);                             // m²
 double EnclosedVolume(const TriangleMesh& mesh);  // m³, divergence theorem; mesh must be closed
 Eigen::AlignedBox3f BoundingBox(const std::vector<Vector3f>& vertices);  // empty if there are none
 double BoundingBoxDiagonal(const std::vector<Vector3f>& vertices);       // metres

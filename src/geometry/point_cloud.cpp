@@ -36,7 +36,8 @@ float SampleDepth(const DepthImage& depth, float u, float v, float smooth_within
       return (1.0f - y) * ((1.0f - x) * z00 + x * z10) + y * ((1.0f - x) * z01 + x * z11);
     }
   }
-  const float z = depth(static_cast<int>(u + 0.5f), static_cast<int>(v + 0.5f));
+  const float z =
+      depth(static_cast<int>(std::floor(u + 0.5f)), static_cast<int>(std::floor(v + 0.5f)));
   return z > 0.0f ? z : 0.0f;
 }
 

@@ -43,8 +43,9 @@ struct Survey {
     for (int i = 0; i < kEvalWidth * kEvalHeight; ++i) {
       const Vector3d p = frame.points[static_cast<std::size_t>(i)].cast<double>();
       if (p.z() == 0.0) continue;
-      columns.Add(p.x() / p.z(), i % kEvalWidth);
-      rows.Add(p.y() / p.z(), i / kEvalWidth);
+      const int column = i % kEvalWidth, row = i / kEvalWidth;
+      columns.Add(p.x() / p.z(), column);
+      rows.Add(p.y() / p.z(), row);
     }
     for (const auto& [id, joint] : frame.joints) {
       auto& distances = markers_of[id];

@@ -14,6 +14,7 @@
 #include "geometry/surface_map.h"
 #include "learning/shape/tracking_template.h"
 #include "learning/skinning/decomposition.h"
+#include "math/evenly_spread.h"
 #include "math/rigid.h"
 #include "math/statistics.h"
 
@@ -270,12 +271,10 @@ Rig Registered(const std::vector<TriangleMesh>& frames, Registrar& registrar,
   return rig;
 }
 
-// Frames from first to last, evenly spaced.
-template <class Item>
-std::vector<Item> Spread(const std::vector<Item>& all, int most) {
-  const std::size_t count = std::min(all.size(), static_cast<std::size_t>(most));
-  std::vector<Item> chosen;
-  for (std::size_t i = 0; i < count; ++i) chosen.push_back(all[i * all.size() / count]);
+std::vector<Vertices> FramesToLearnFrom(const std::vector<Vertices>& frames, int most) {
+  std::vector<Vertices> chosen;
+  for (const int i : EvenlySpread(static_cast<int>(frames.size()), most))
+    chosen.push_back(frames[static_cast<std::size_t>(i)]);
   return chosen;
 }
 
@@ -296,9 +295,10 @@ void LearnFromFrames(const std::vector<Vertices>& frames, const std::vector<Tria
   BodyModel& subject = rig.subject;
   const skinning::Labels labels = skinning::HeaviestBones(subject.weights);
   subject.weights =
-      skinning::Decompose({subject.rest.vertices, Spread(frames, settings.learning_frames)}, labels,
-                          skinning::CandidateBones(labels, triangles, kBoneCount, settings.weights),
-                          settings.weights)
+      skinning::Decompose(
+          {subject.rest.vertices, FramesToLearnFrom(frames, settings.learning_frames)}, labels,
+          skinning::CandidateBones(labels, triangles, kBoneCount, settings.weights),
+          settings.weights)
           .weights;
   const auto fit_transforms = [&] {
     return skinning::FitTransforms({subject.rest.vertices, frames}, subject.weights, kBoneCount,

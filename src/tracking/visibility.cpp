@@ -35,7 +35,8 @@ void FindVisibleVertices(const std::vector<Vector3f>& vertices_in_camera,
   const auto look = [&](std::size_t vertex, int pixel, float z) {
     const float there = rendered.pixels()[std::max(pixel, 0)];
     visible[count] = static_cast<int>(vertex);
-    count += (pixel >= 0) & (there > 0.0f) & (std::abs(z - there) < tolerance_m) ? 1 : 0;
+    const bool is_visible = (pixel >= 0) & (there > 0.0f) & (std::abs(z - there) < tolerance_m);
+    count += is_visible ? 1 : 0;
   };
   std::size_t i = 0;
   for (; i + kLanes <= vertices_in_camera.size(); i += kLanes) {

@@ -136,26 +136,23 @@ ScanFrame ScanRecorder::Render(int frame) {
   BoneTransforms bones;
   const std::vector<Vector3f> body = Stand(frame / settings_.fps, bones);
   const Rigidd camera_from_floor = CameraAt(frame);
-  std::vector<Vector3f> vertices;
-  std::vector<Triangle> triangles;
+  TriangleMesh seen;
   const auto add = [&](const Vector3d& place) {
-    const auto first = static_cast<std::int32_t>(vertices.size());
+    std::vector<Vector3f> vertices;
     for (const Vector3f& p : body) {
       vertices.push_back((camera_from_floor * (p.cast<double>() + place)).cast<float>());
     }
-    for (const Triangle& t : body_.rest.triangles) {
-      triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-    }
+    AppendSurface(vertices, body_.rest.triangles, seen);
   };
   add(Vector3d::Zero());
   for (const BystanderSettings& b : settings_.bystanders) add({b.place_m[0], 0.0, b.place_m[1]});
-  RequireInRange(vertices, frame, "path");
+  RequireInRange(seen.vertices, frame, "path");
 
-  const DepthImage true_depth = renderer_->Render(vertices, triangles);
+  const DepthImage true_depth = renderer_->Render(seen.vertices, seen.triangles);
   RandomStream noise(static_cast<std::uint64_t>(settings_.seed), fmt::format("sensor/{}", frame));
   ScanFrame result;
-  result.vertices.assign(vertices.begin(),
-                         vertices.begin() + static_cast<std::ptrdiff_t>(body.size()));
+  result.vertices.assign(seen.vertices.begin(),
+                         seen.vertices.begin() + static_cast<std::ptrdiff_t>(body.size()));
   for (const Vector3d& joint : PosedJoints(body_.skeleton, bones)) {
     result.joints.push_back(camera_from_floor * joint);
   }

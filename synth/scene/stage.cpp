@@ -102,10 +102,7 @@ void Stage::AddOccluder(double time_s, TriangleMesh& seen) const {
       camera_from_subject_ * Rigidd{Matrix3<double>::Identity(), {x, 0.0, z}};
   const TruePose person = Pose(dressed_, motion_.At(time_s + occluder.later_s),
                                settings_.truth.skinning, camera_from_person);
-  const auto first = static_cast<int>(seen.vertices.size());
-  seen.vertices.insert(seen.vertices.end(), person.vertices.begin(), person.vertices.end());
-  for (const Triangle& t : dressed_.rest.triangles)
-    seen.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  AppendSurface(person.vertices, dressed_.rest.triangles, seen);
 }
 
 DepthImage Stage::RenderedAlone(const TruePose& body) {

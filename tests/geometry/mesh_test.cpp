@@ -148,6 +148,15 @@ TEST(InspectMesh, FindsAnEdgeOfThreeFaces) {
   EXPECT_THAT(InspectMesh(mesh).problem, HasSubstr("belongs to 3 faces"));
 }
 
+TEST(Mesh, TheSurfaceOfTwoBoxesIsThatOfBoth) {
+  const TriangleMesh two = Joined(CubeOfTriangles(), CubeOfTriangles());
+  EXPECT_EQ(two.vertices.size(), 16u);
+  EXPECT_EQ(two.triangles[12],
+            (Triangle{two.triangles[0][0] + 8, two.triangles[0][1] + 8, two.triangles[0][2] + 8}));
+  EXPECT_NEAR(TriangleArea(two, two.triangles[0]), SurfaceArea(CubeOfTriangles()) / 12.0, 1e-6);
+  EXPECT_NEAR(SurfaceArea(two), 2.0 * SurfaceArea(CubeOfTriangles()), 1e-6);
+}
+
 TEST(InspectMesh, FindsTwoPartsAndPartsThatOnlyTouch) {
   TriangleMesh second = CubeOfTriangles();
   for (Vector3f& v : second.vertices) v.x() += 5.0f;

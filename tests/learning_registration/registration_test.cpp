@@ -114,11 +114,9 @@ TEST(Registration, RefusesWhatIsNoPerson) {
   Registrar registrar(SmallSpace(), {}, QuickSettings());
   const Posed person = SomebodyStriding(Matrix3<double>::Identity(), {0.0, 1.0, 0.0});
   TriangleMesh two = person.surface;
-  const auto count = static_cast<std::int32_t>(two.vertices.size());
-  for (const Vector3f& v : person.surface.vertices)
-    two.vertices.push_back(v + Vector3f(1.2f, 0.0f, 0.0f));
-  for (const Triangle& t : person.surface.triangles)
-    two.triangles.push_back({t[0] + count, t[1] + count, t[2] + count});
+  TriangleMesh neighbor = person.surface;
+  for (Vector3f& v : neighbor.vertices) v.x() += 1.2f;
+  AppendSurface(neighbor.vertices, neighbor.triangles, two);
   EXPECT_THAT(registrar.Find(two).problem, HasSubstr("no person: the body explains"));
 
   TriangleMesh without_legs = person.surface;

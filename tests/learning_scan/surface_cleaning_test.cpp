@@ -6,11 +6,13 @@
 #include "core/error.h"
 #include "learning/scan/body_check.h"
 #include "learning/scan/scan_surface.h"
+#include "support/shapes.h"
 #include "support/tiny_body.h"
 
 namespace vitruvia {
 namespace {
 
+using shapes::Joined;
 using testing::HasSubstr;
 using testing::SizeIs;
 
@@ -22,15 +24,6 @@ RawSurface Raw(TriangleMesh mesh) {
 TriangleMesh Moved(TriangleMesh mesh, const Vector3f& by) {
   for (Vector3f& p : mesh.vertices) p += by;
   return mesh;
-}
-
-TriangleMesh Joined(TriangleMesh a, const TriangleMesh& b) {
-  const auto first = static_cast<std::int32_t>(a.vertices.size());
-  a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
-  for (const Triangle& t : b.triangles) {
-    a.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-  }
-  return a;
 }
 
 TriangleMesh Tetrahedron(float size) {

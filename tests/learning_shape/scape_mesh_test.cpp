@@ -96,11 +96,9 @@ TEST(ScapeMesh, SolutionIsTheLeastSquaresOne) {
 
 TEST(ScapeMesh, RefusesSeveralPieces) {
   TriangleMesh two = Template();
-  const auto offset = static_cast<std::int32_t>(two.vertices.size());
-  const TriangleMesh one = two;
-  for (const Vector3f& v : one.vertices) two.vertices.push_back(v + Vector3f(3.0f, 0.0f, 0.0f));
-  for (const Triangle& t : one.triangles)
-    two.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+  TriangleMesh other = two;
+  for (Vector3f& v : other.vertices) v.x() += 3.0f;
+  AppendSurface(other.vertices, other.triangles, two);
   EXPECT_THROW(ScapeMesh{two}, DataError);
 }
 

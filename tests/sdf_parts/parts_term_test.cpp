@@ -25,13 +25,10 @@ class PartsTermTest : public testing::Test {
     const BoneTransforms bones = WorldFromRest(shaped_, state);
     TriangleMesh all;
     for (const Part& part : CutIntoParts(body_, settings_.field.least_weight)) {
-      const auto first = static_cast<std::int32_t>(all.vertices.size());
-      for (const Vector3f& v : part.mesh.vertices) {
-        all.vertices.push_back((bones[part.bone] * v.cast<double>()).cast<float>());
-      }
-      for (const Triangle& t : part.mesh.triangles) {
-        all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-      }
+      std::vector<Vector3f> posed;
+      for (const Vector3f& v : part.mesh.vertices)
+        posed.push_back((bones[part.bone] * v.cast<double>()).cast<float>());
+      AppendSurface(posed, part.mesh.triangles, all);
     }
     const std::unique_ptr<MeshRasterizer> rasterizer =
         MakeRasterizer(Rasterizer::kFrontFaces, camera_);

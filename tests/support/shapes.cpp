@@ -65,11 +65,7 @@ QuadMesh Shaken(QuadMesh mesh, float amount) {
 
 TriangleMesh Joined(const TriangleMesh& a, const TriangleMesh& b) {
   TriangleMesh result = a;
-  const auto offset = static_cast<std::int32_t>(a.vertices.size());
-  result.vertices.insert(result.vertices.end(), b.vertices.begin(), b.vertices.end());
-  for (const auto& [p, q, r] : b.triangles) {
-    result.triangles.push_back({p + offset, q + offset, r + offset});
-  }
+  AppendSurface(b.vertices, b.triangles, result);
   return result;
 }
 

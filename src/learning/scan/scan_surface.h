@@ -44,7 +44,6 @@ RawSurface ExtractSurface(const TsdfVolume& volume, double min_weight);
 // of less than island_share of the largest one's area.
 ScanSurface Cleaned(RawSurface raw, double short_edge_m, double island_share);
 
-double SurfaceArea(const TriangleMesh& mesh);                           // m²
 std::vector<BoundaryLoop> FindBoundaryLoops(const TriangleMesh& mesh);  // longest first
 
 }  // namespace vitruvia

@@ -9,13 +9,6 @@
 namespace vitruvia {
 namespace {
 
-double TriangleArea(const TriangleMesh& mesh, const Triangle& t) {
-  const Vector3d a = mesh.vertices[t[0]].cast<double>();
-  return 0.5 * (mesh.vertices[t[1]].cast<double>() - a)
-                   .cross(mesh.vertices[t[2]].cast<double>() - a)
-                   .norm();
-}
-
 // Each short edge becomes a point, the lower of its two vertices.
 void ContractShortEdges(TriangleMesh& mesh, double short_edge_m) {
   DisjointSets sets(mesh.vertices.size());
@@ -88,12 +81,6 @@ void DropUnusedVertices(TriangleMesh& mesh, std::vector<float>& weights) {
 }
 
 }  // namespace
-
-double SurfaceArea(const TriangleMesh& mesh) {
-  double area_m2 = 0.0;
-  for (const Triangle& t : mesh.triangles) area_m2 += TriangleArea(mesh, t);
-  return area_m2;
-}
 
 std::vector<BoundaryLoop> FindBoundaryLoops(const TriangleMesh& mesh) {
   // Directed edges without their opposite: each continues where the next begins.

@@ -36,7 +36,7 @@ KnownRows RowsOf(const ShapeSpace& space, const KnownAttributes& known, int comp
   return rows;
 }
 
-Eigen::VectorXd Shrunk(Eigen::VectorXd theta, double longest) {
+Eigen::VectorXd Shrunk(const Eigen::VectorXd& theta, double longest) {
   const double norm = theta.norm();
   return norm > longest ? Eigen::VectorXd(theta * (longest / norm)) : theta;
 }

@@ -18,19 +18,7 @@ using articulated::Narrowed;
 using articulated::PoseSystem;
 using articulated::TimedStep;
 
-namespace {
-
-double SurfaceArea(const TriangleMesh& mesh) {
-  double area = 0.0;
-  for (const Triangle& t : mesh.triangles) {
-    const Vector3f a = mesh.vertices[t[1]] - mesh.vertices[t[0]];
-    const Vector3f b = mesh.vertices[t[2]] - mesh.vertices[t[0]];
-    area += 0.5 * double{a.cross(b).norm()};
-  }
-  return area;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 PartsTerm::PartsTerm(const Subject& subject, const PinholeCamera& camera, const Settings& settings)
     : settings_(settings),
