@@ -31,8 +31,8 @@ std::string DepthPngProblem(const DepthImage& depth, double unit_m) {
   for (const float z : depth.pixels()) {
     if (!(z > 0.0f) || !std::isfinite(z)) continue;
     ++measured;
-    const double units = std::round(z / unit_m);
-    if (units >= 1.0 && units <= kLargest) continue;
+    const double units = z / unit_m;
+    if (units >= 0.5 && units < kLargest + 0.5) continue;
     ++outside;
     least_m = std::min(least_m, z);
     most_m = std::max(most_m, z);
@@ -56,8 +56,10 @@ void WriteDepthPng(const std::filesystem::path& file, const DepthImage& depth, d
   for (int v = 0; v < depth.height(); ++v) {
     auto* row = raw.ptr<std::uint16_t>(v);
     for (int u = 0; u < depth.width(); ++u) {
-      const double units = std::round(depth(u, v) / unit_m);
-      row[u] = units > 0.0 && std::isfinite(units) ? static_cast<std::uint16_t>(units) : 0;
+      const double units = depth(u, v) / unit_m;
+      row[u] = units > 0.0 && std::isfinite(units)
+                   ? static_cast<std::uint16_t>(std::floor(units + 0.5))
+                   : 0;
     }
   }
   WriteGreyPng(file, raw);

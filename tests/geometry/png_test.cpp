@@ -74,6 +74,17 @@ TEST_F(Png, DepthThatDoesNotFitIsCountedAndTheUnitThatWouldDoIsNamed) {
                         "of at most 0.4 m"));
 }
 
+TEST_F(Png, HalvesAreRoundedUp) {
+  constexpr double kUnit = 0.25;
+  DepthImage depth(3, 1);
+  depth.pixels() = {0.125f, 0.625f, 0.874f};
+  const DepthImage read = RoundTrip(depth, kUnit);
+  EXPECT_THAT(read.pixels(), testing::ElementsAre(0.25f, 0.75f, 0.75f));
+  EXPECT_THAT(DepthPngProblem(DepthImage(1, 1, 0.1249f), kUnit), HasSubstr("1 of 1"));
+  EXPECT_EQ(DepthPngProblem(DepthImage(1, 1, 65535.49f * 0.25f), kUnit), "");
+  EXPECT_THAT(DepthPngProblem(DepthImage(1, 1, 65535.5f * 0.25f), kUnit), HasSubstr("1 of 1"));
+}
+
 TEST_F(Png, EveryValueOfSixteenBitsSurvives) {
   constexpr double kUnit = 1.0 / 4096.0;  // a power of two: metres are exact
   DepthImage depth(256, 256);
