@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 #include <limits>
 
 #include "math/lanes.h"
@@ -23,13 +24,10 @@ struct LaneZBuffer::TriangleLanes {
   };
   CornerLanes a, b, c;
 
-  TriangleLanes(const std::vector<Corner>& corners, const Triangle* triangles) {
-    for (int lane = 0; lane < kLanes; ++lane) {
-      Set(lane, corners[triangles[lane][0]], a);
-      Set(lane, corners[triangles[lane][1]], b);
-      Set(lane, corners[triangles[lane][2]], c);
-    }
-  }
+  TriangleLanes(const std::vector<Corner>& corners, const Triangle* triangles)
+      : a(Gather(corners, triangles, 0)),
+        b(Gather(corners, triangles, 1)),
+        c(Gather(corners, triangles, 2)) {}
 
   // Twice the area. Seen from outside the corners run counter-clockwise and the image's v points
   // down: negative for front faces.
@@ -51,10 +49,27 @@ struct LaneZBuffer::TriangleLanes {
   }
 
  private:
-  static void Set(int lane, const Corner& corner, CornerLanes& lanes) {
-    lanes.u[lane] = corner.u;
-    lanes.v[lane] = corner.v;
-    lanes.inverse_z[lane] = corner.inverse_z;
+  // One load for each triangle, then a transposition in registers: numbers that are set lane by
+  // lane go through memory.
+  static CornerLanes Gather(const std::vector<Corner>& corners, const Triangle* triangles,
+                            int corner) {
+    const auto load = [&](int lane) {
+      FloatQuad quad;
+      std::memcpy(&quad, &corners[triangles[lane][corner]], sizeof quad);
+      return quad;
+    };
+    const auto pair = [&](int lane) {
+      return __builtin_shufflevector(load(lane), load(lane + 4), 0, 1, 2, 3, 4, 5, 6, 7);
+    };
+    const FloatLanes p04 = pair(0), p15 = pair(1), p26 = pair(2), p37 = pair(3);
+    // u and v of lanes 0, 1 and 4, 5, then of 2, 3 and 6, 7; and the same of 1/z.
+    const FloatLanes uv01 = __builtin_shufflevector(p04, p15, 0, 8, 1, 9, 4, 12, 5, 13);
+    const FloatLanes uv23 = __builtin_shufflevector(p26, p37, 0, 8, 1, 9, 4, 12, 5, 13);
+    const FloatLanes z01 = __builtin_shufflevector(p04, p15, 2, 10, 3, 11, 6, 14, 7, 15);
+    const FloatLanes z23 = __builtin_shufflevector(p26, p37, 2, 10, 3, 11, 6, 14, 7, 15);
+    return {.u = __builtin_shufflevector(uv01, uv23, 0, 1, 8, 9, 4, 5, 12, 13),
+            .v = __builtin_shufflevector(uv01, uv23, 2, 3, 10, 11, 6, 7, 14, 15),
+            .inverse_z = __builtin_shufflevector(z01, z23, 0, 1, 8, 9, 4, 5, 12, 13)};
   }
 };
 
@@ -79,7 +94,7 @@ void LaneZBuffer::Project(const std::vector<Vector3f>& vertices_in_camera) {
     const Vector3f& p = vertices_in_camera[i];
     const float reciprocal = 1.0f / p.z();
     const float inverse_z = p.z() > near_m_ ? reciprocal : 0.0f;
-    corners_[i] = {fx * p.x() * inverse_z + cx, fy * p.y() * inverse_z + cy, inverse_z};
+    corners_[i] = {fx * p.x() * inverse_z + cx, fy * p.y() * inverse_z + cy, inverse_z, 0.0f};
   }
 }
 

@@ -20,8 +20,9 @@ class LaneZBuffer : public MeshRasterizer {
       final;
 
  private:
-  struct Corner {
-    float u, v, inverse_z;  // inverse_z 0: too near, or behind the camera
+  // Four numbers, so that one load takes a corner.
+  struct alignas(16) Corner {
+    float u, v, inverse_z, unused;  // inverse_z 0: too near, or behind the camera
   };
   struct Box {  // of pixels, both ends included
     int left, top, right, bottom;

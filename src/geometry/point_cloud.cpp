@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/depth_stretches.h"
+
 namespace vitruvia {
 
 void CloudFromDepth(const DepthImage& depth, const PinholeCamera& camera, int stride,
@@ -10,12 +12,14 @@ void CloudFromDepth(const DepthImage& depth, const PinholeCamera& camera, int st
   cloud.points.clear();
   cloud.pixels.clear();
   for (int v = 0; v < depth.height(); v += stride) {
-    for (int u = 0; u < depth.width(); u += stride) {
-      const float z = depth(u, v);
-      if (!(z > 0.0f && z <= max_depth_m)) continue;
-      cloud.points.push_back(camera.Unproject(static_cast<float>(u), static_cast<float>(v), z));
-      cloud.pixels.push_back(v * depth.width() + u);
-    }
+    ForEachStretchWithDepth(depth.width(), stride, {&depth(0, v)}, [&](int begin, int end) {
+      for (int u = begin; u < end; u += stride) {
+        const float z = depth(u, v);
+        if (!(z > 0.0f && z <= max_depth_m)) continue;
+        cloud.points.push_back(camera.Unproject(static_cast<float>(u), static_cast<float>(v), z));
+        cloud.pixels.push_back(v * depth.width() + u);
+      }
+    });
   }
 }
 

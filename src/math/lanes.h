@@ -76,6 +76,13 @@ bool Any(const Mask& mask) {
   return SmallestLane(mask) != 0;
 }
 
+// Whether one of eight numbers is positive.
+inline bool IsAnyPositive(const float* numbers) {
+  FloatLanes lanes;
+  std::memcpy(&lanes, numbers, sizeof lanes);
+  return Bits(lanes > 0.0f) != 0;
+}
+
 // In pairs of four, of two and of one apart.
 template <class Number>
 auto SumOfLanes(const Number& v) {

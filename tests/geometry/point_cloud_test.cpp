@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/random.h"
+
 namespace vitruvia {
 namespace {
 
@@ -34,6 +36,31 @@ TEST(CloudFromDepth, LeavesOutWhatIsNoMeasurement) {
   PointCloud cloud;
   CloudFromDepth(depth, camera, 1, 4.0f, cloud);
   EXPECT_EQ(cloud.pixels, std::vector<int>{1});
+}
+
+// The reference looks at every pixel. Images narrower than eight pixels, strides that divide eight
+// and that do not, and depths at both ends of the rows.
+TEST(CloudFromDepth, SkipsNoMeasuredPixelAmongEmptyOnes) {
+  RandomStream random(1, "cloud");
+  PinholeCamera camera;
+  camera.height = 3;
+  for (camera.width = 1; camera.width <= 37; ++camera.width) {
+    for (int stride = 1; stride <= 11; ++stride) {
+      DepthImage depth(camera.width, camera.height);
+      for (float& z : depth.pixels()) z = random.Uniform() < 0.05 ? 1.5f : 0.0f;
+      depth(camera.width - 1, 0) = 2.0f;
+      depth(0, camera.height - 1) = 2.0f;
+      std::vector<int> measured;
+      for (int v = 0; v < camera.height; v += stride) {
+        for (int u = 0; u < camera.width; u += stride) {
+          if (depth(u, v) > 0.0f) measured.push_back(v * camera.width + u);
+        }
+      }
+      PointCloud cloud;
+      CloudFromDepth(depth, camera, stride, 4.0f, cloud);
+      EXPECT_EQ(cloud.pixels, measured) << camera.width << " columns, stride " << stride;
+    }
+  }
 }
 
 }  // namespace

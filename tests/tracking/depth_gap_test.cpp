@@ -17,5 +17,16 @@ TEST(SquaredDepthGap, CountsDifferencesUpToFiveCentimetresPerRenderedPixel) {
   EXPECT_EQ(SquaredDepthGap_m2(DepthImage(4, 2), measured, 1, 8.0), 0.0);
 }
 
+// Ten columns: the last two do not fill a group of eight.
+TEST(SquaredDepthGap, CountsPixelsThatOnlyOneImageHoldsAtTheEndOfARow) {
+  DepthImage rendered(10, 1), measured(10, 1);
+  rendered(0, 0) = 2.0f, measured(0, 0) = 2.01f;  // 1 cm
+  rendered(8, 0) = 2.0f;                          // nothing measured
+  measured(9, 0) = 2.0f;                          // nothing rendered
+  EXPECT_NEAR(SquaredDepthGap_m2(rendered, measured, 1, 8.0), (1e-4 + 2 * 25e-4) / 2, 1e-9);
+  EXPECT_NEAR(SquaredDepthGap_m2(rendered, measured, 2, 8.0), (1e-4 + 25e-4) / 2, 1e-9);
+  EXPECT_NEAR(SquaredDepthGap_m2(rendered, measured, 3, 8.0), 1e-4 + 25e-4, 1e-9);  // columns 0, 9
+}
+
 }  // namespace
 }  // namespace vitruvia
