@@ -68,6 +68,26 @@ TEST(Dynamic, CarriesPoseAndShapeOverAnEmptyFrameAndGoesOn) {
   EXPECT_LT(stage.MeanError(after, 0.0), 0.01);
 }
 
+// The body turns by 180 degrees about its own vertical from one frame to the next.
+double ErrorAfterAHalfTurn(double margin_m) {
+  const Rigidd half_turn{Vector3d(-1, 1, -1).asDiagonal().toDenseMatrix(), Vector3d::Zero()};
+  FrameStage first;
+  ArmStage second{2, SkinDualQuaternion, CameraFromStart() * half_turn};
+  Settings settings;
+  settings.facing.margin_m = margin_m;
+  Dynamic tracker(settings, HumanSkeleton());
+  tracker.Start(first.body, first.camera);
+  for (int i = 0; i < 4; ++i) tracker.TrackFrame(first.Frame(i, 0.2));
+  TrackResult last;
+  for (int i = 4; i < 7; ++i) last = tracker.TrackFrame(second.Frame(i, 0.2));
+  return second.MeanError(last, 0.2);
+}
+
+TEST(Dynamic, FollowsAHalfTurnFromOneFrameToTheNextIfFacingIsChecked) {
+  EXPECT_GT(ErrorAfterAHalfTurn(0.0), 0.05);
+  EXPECT_LT(ErrorAfterAHalfTurn(0.006), 0.02);
+}
+
 std::vector<std::string> NamesOf(const std::vector<NamedValue>& energies) {
   std::vector<std::string> names;
   for (const NamedValue& energy : energies) names.push_back(energy.name);

@@ -82,35 +82,6 @@ void LimbSettings::Describe(Fields& f) {
              .source = kSource});
 }
 
-void FacingSettings::Describe(Fields& f) {
-  f.Number("margin_m", margin_m,
-           {.meaning = "the pose with front and back exchanged is tried when the root mean square "
-                       "of the differences in depth between model and frame exceeds the usual one "
-                       "by this in square, and is taken if it is lower by as much; 0: never",
-            .unit = "m",
-            .min = 0,
-            .max = 1,
-            .origin = Origin::kTuned,
-            .source = "half_turn of stability/realtime_scape"});
-  if (!f.Applies(margin_m > 0.0)) return;
-  f.Number("least_decrease", least_decrease,
-           {.meaning = "share by which the exchanged pose must lower the mean square of these "
-                       "differences too: noise of some centimetres makes them vary by more than "
-                       "margin_m",
-            .min = 0,
-            .max = 1,
-            .origin = Origin::kTuned,
-            .source = "half_turn of stability/realtime_scape, noise and few_pairs of causes"});
-  f.Integer("pause", pause,
-            {.meaning = "least number of frames between two such trials; doubled by each trial "
-                        "that finds nothing",
-             .unit = "frames",
-             .min = 1,
-             .max = 1e6,
-             .origin = Origin::kGuessed,
-             .source = "as recovery.pause"});
-}
-
 void StoppingSettings::Describe(Fields& f) {
   f.Number(
       "rotation_step_deg", rotation_step_deg,
@@ -265,6 +236,15 @@ void Settings::DescribeEnergy(Fields& f) {
          .origin = Origin::kGuessed,
          .source = "captured skeletons exceed the ranges by some degrees, for their joints are "
                    "not quite a body's"});
+  }
+  if (f.Applies(weights[EnergyTerm::kPrior] > 0.0)) {
+    f.Number("prior_head_factor", prior_head_factor,
+             {.meaning = "factor on prior_weight for neck and head, which are nearly surfaces of "
+                         "revolution, so that a frame hardly determines their turn",
+              .min = 0,
+              .max = 1e6,
+              .origin = Origin::kGuessed,
+              .source = "paper A has no such term; 1 treats all bones alike"});
   }
   f.Number(
       "length_unit_m", length_unit_m,

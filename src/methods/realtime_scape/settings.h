@@ -9,6 +9,7 @@
 #include "tracking/area_watch.h"
 #include "tracking/classification.h"
 #include "tracking/depth_noise.h"
+#include "tracking/facing.h"
 #include "tracking/joint_uncertainty.h"
 #include "tracking/placement.h"
 #include "tracking/relocalization_settings.h"
@@ -135,14 +136,6 @@ struct LimbSettings {
   void Describe(Fields& fields);
 };
 
-// Search for the other facing (facing.h).
-struct FacingSettings {
-  double margin_m = 0.006;       // 0: facing is not checked
-  double least_decrease = 0.35;  // share of the squared gap
-  int pause = 5;                 // frames
-  void Describe(Fields& fields);
-};
-
 struct StoppingSettings {
   double rotation_step_deg = 1.0;
   double translation_step_m = 0.005;
@@ -167,6 +160,7 @@ struct Settings {
   JointRows joint_rows = JointRows::kJointPosition;
   TermWeights weights;
   double limit_slack_deg = 15.0;
+  double prior_head_factor = 1.0;
   double length_unit_m = 0.05;
   RotationUpdate rotation_update = RotationUpdate::kExponential;
   StoppingSettings stopping;

@@ -5,13 +5,22 @@
 
 namespace vitruvia::realtime_scape {
 
-void AddPriorTerm(const BodyPose& pose, double weight, BlockNormalEquations& equations) {
+namespace {
+
+bool IsNeckOrHead(int bone) {
+  return bone == static_cast<int>(BoneId::kNeck) || bone == static_cast<int>(BoneId::kHead);
+}
+
+}  // namespace
+
+void AddPriorTerm(const BodyPose& pose, double weight, double head_factor,
+                  BlockNormalEquations& equations) {
   for (int bone = 1; bone < kBoneCount; ++bone) {
     const int parent = Bones()[bone].parent;
     const LocalRotationStatistics& usual = CapturedPoseStatistics()[bone];
     const LocalDeviation deviation(pose, bone, parent, usual.mean);
     deviation.AddRows(deviation.vector(), Vector3d::Zero(), usual.deviation_rad.cwiseInverse(),
-                      weight, equations);
+                      IsNeckOrHead(bone) ? head_factor * weight : weight, equations);
   }
 }
 
