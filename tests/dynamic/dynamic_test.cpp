@@ -132,6 +132,28 @@ TEST(Dynamic, SaysLostWhenTheDataAreElsewhere) {
   }
 }
 
+// Some empty frames, then the body stands 0.9 m aside and 0.5 m farther away, out of reach.
+double ErrorAfterReEntry(double lost_above) {
+  FrameStage first;
+  Rigidd elsewhere = CameraFromStart();
+  elsewhere.translation += Vector3d(-0.9, 0.0, 0.5);
+  ArmStage second{2, SkinDualQuaternion, elsewhere};
+  Settings settings;
+  settings.watch.lost_above = lost_above;
+  Dynamic tracker(settings, HumanSkeleton());
+  tracker.Start(first.body, first.camera);
+  for (int i = 0; i < 2; ++i) tracker.TrackFrame(first.Frame(i, 0.0));
+  tracker.TrackFrame({2, 2 / 30.0, DepthImage(320, 240)});
+  TrackResult last;
+  for (int i = 3; i < 6; ++i) last = tracker.TrackFrame(second.Frame(i, 0.0));
+  return second.MeanError(last, 0.0);
+}
+
+TEST(Dynamic, FindsABodyThatReEntersElsewhereIfAreasAreWatched) {
+  EXPECT_GT(ErrorAfterReEntry(0.0), 0.5);
+  EXPECT_LT(ErrorAfterReEntry(0.065), 0.02);
+}
+
 // What the frame shows of the body is enough to go on, but an arm is missing.
 TEST(Dynamic, SaysLostWhenAreasAreWatchedAndALimbIsContradicted) {
   const auto outcome_without_arm = [](double lost_above) {

@@ -152,7 +152,6 @@ const std::map<std::string, Change>& Changes() {
       {"free_space_weight", {1.0}},
       {"limit_slack_deg", {0.0, At("limit_weight", 10.0)}},
       {"prior_weight", {0.1}},
-      {"prior_head_factor", {20.0, At("prior_weight", 0.1)}},
       {"length_unit_m", {0.1}},
       {"rotation_update", {"linear_orthonormal"}},
       {"stopping.rotation_step_deg", {0.01}},

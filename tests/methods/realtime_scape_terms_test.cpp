@@ -88,7 +88,7 @@ class Terms : public testing::Test, protected PosedTinyBody {
   }
   static Term Prior() {
     return [](const BodyPose& pose, BlockNormalEquations& equations) {
-      AddPriorTerm(pose, 0.1, 3.0, equations);
+      AddPriorTerm(pose, 0.1, equations);
     };
   }
   // Vertices drawn to where those pairs say.

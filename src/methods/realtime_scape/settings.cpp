@@ -237,15 +237,6 @@ void Settings::DescribeEnergy(Fields& f) {
          .source = "captured skeletons exceed the ranges by some degrees, for their joints are "
                    "not quite a body's"});
   }
-  if (f.Applies(weights[EnergyTerm::kPrior] > 0.0)) {
-    f.Number("prior_head_factor", prior_head_factor,
-             {.meaning = "factor on prior_weight for neck and head, which are nearly surfaces of "
-                         "revolution, so that a frame hardly determines their turn",
-              .min = 0,
-              .max = 1e6,
-              .origin = Origin::kGuessed,
-              .source = "paper A has no such term; 1 treats all bones alike"});
-  }
   f.Number(
       "length_unit_m", length_unit_m,
       {.meaning = "length that counts as 1 where squared lengths are added to squared entries of "

@@ -160,7 +160,6 @@ struct Settings {
   JointRows joint_rows = JointRows::kJointPosition;
   TermWeights weights;
   double limit_slack_deg = 15.0;
-  double prior_head_factor = 1.0;
   double length_unit_m = 0.05;
   RotationUpdate rotation_update = RotationUpdate::kExponential;
   StoppingSettings stopping;

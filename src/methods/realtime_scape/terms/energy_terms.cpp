@@ -84,7 +84,7 @@ const std::array<TermEntry, kEnergyTermCount>& Terms() {
        AboutOwnWeight("weight of the prior on local rotations about their means in captured "
                       "motion, per squared standard deviation"),
        [](const TermInput& in, double weight, BlockNormalEquations& equations) {
-         AddPriorTerm(in.pose, weight, in.settings.prior_head_factor, equations);
+         AddPriorTerm(in.pose, weight, equations);
        }},
   }};
   return terms;

@@ -5,22 +5,13 @@
 
 namespace vitruvia::realtime_scape {
 
-namespace {
-
-bool IsNeckOrHead(int bone) {
-  return bone == static_cast<int>(BoneId::kNeck) || bone == static_cast<int>(BoneId::kHead);
-}
-
-}  // namespace
-
-void AddPriorTerm(const BodyPose& pose, double weight, double head_factor,
-                  BlockNormalEquations& equations) {
+void AddPriorTerm(const BodyPose& pose, double weight, BlockNormalEquations& equations) {
   for (int bone = 1; bone < kBoneCount; ++bone) {
     const int parent = Bones()[bone].parent;
     const LocalRotationStatistics& usual = CapturedPoseStatistics()[bone];
     const LocalDeviation deviation(pose, bone, parent, usual.mean);
     deviation.AddRows(deviation.vector(), Vector3d::Zero(), usual.deviation_rad.cwiseInverse(),
-                      IsNeckOrHead(bone) ? head_factor * weight : weight, equations);
+                      weight, equations);
   }
 }
 

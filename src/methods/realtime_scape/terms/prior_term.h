@@ -7,9 +7,7 @@
 namespace vitruvia::realtime_scape {
 
 // Adds weight · Σ_j Σ_k (δ_jk / σ_jk)², where δ_j is the rotation vector from the mean local
-// rotation of captured motion to the bone's (body/pose_statistics.h). The rows of neck and
-// head, which are nearly surfaces of revolution, count head_factor times as much.
-void AddPriorTerm(const BodyPose& pose, double weight, double head_factor,
-                  BlockNormalEquations& equations);
+// rotation of captured motion to the bone's (body/pose_statistics.h).
+void AddPriorTerm(const BodyPose& pose, double weight, BlockNormalEquations& equations);
 
 }  // namespace vitruvia::realtime_scape
