@@ -62,8 +62,8 @@ BoneAreas BodyAreas::total() const {
 
 double BodyAreas::disagreement() const {
   const double within_reach_m2 = observed_m2 - stray_m2;
-  if (!(within_reach_m2 > 0.0)) return 0.0;
   const BoneAreas sum = total();
+  if (!(within_reach_m2 > 0.0)) return stray_m2 > 0.0 && sum.contradicted_m2 > 0.0 ? 1.0 : 0.0;
   return (sum.unexplained_m2 + sum.contradicted_m2) / within_reach_m2;
 }
 

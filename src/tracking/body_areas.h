@@ -32,8 +32,9 @@ struct BodyAreas {
   double stray_m2 = 0.0;     // of the unexplained points that are out of reach of all bones
 
   BoneAreas total() const;
-  // Unexplained and contradicted area as a share of the observed area within reach. 0 if nothing is
-  // observed there.
+  // Unexplained and contradicted area as a share of the observed area within reach. If nothing is
+  // observed there: 1 if the model is contradicted and something is observed elsewhere, otherwise
+  // 0.
   double disagreement() const;
   // Confirmed area divided by the union of the model's visible area and the unexplained area within
   // reach: similarity of the tracked object to the subject, independent of the rest of the frame.

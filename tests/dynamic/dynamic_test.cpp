@@ -68,6 +68,26 @@ TEST(Dynamic, CarriesPoseAndShapeOverAnEmptyFrameAndGoesOn) {
   EXPECT_LT(stage.MeanError(after, 0.0), 0.01);
 }
 
+// The body turns by 180 degrees about its own vertical from one frame to the next.
+double ErrorAfterAHalfTurn(double margin_m) {
+  const Rigidd half_turn{Vector3d(-1, 1, -1).asDiagonal().toDenseMatrix(), Vector3d::Zero()};
+  FrameStage first;
+  ArmStage second{2, SkinDualQuaternion, CameraFromStart() * half_turn};
+  Settings settings;
+  settings.facing.margin_m = margin_m;
+  Dynamic tracker(settings, HumanSkeleton());
+  tracker.Start(first.body, first.camera);
+  for (int i = 0; i < 4; ++i) tracker.TrackFrame(first.Frame(i, 0.2));
+  TrackResult last;
+  for (int i = 4; i < 7; ++i) last = tracker.TrackFrame(second.Frame(i, 0.2));
+  return second.MeanError(last, 0.2);
+}
+
+TEST(Dynamic, FollowsAHalfTurnFromOneFrameToTheNextIfFacingIsChecked) {
+  EXPECT_GT(ErrorAfterAHalfTurn(0.0), 0.05);
+  EXPECT_LT(ErrorAfterAHalfTurn(0.006), 0.02);
+}
+
 std::vector<std::string> NamesOf(const std::vector<NamedValue>& energies) {
   std::vector<std::string> names;
   for (const NamedValue& energy : energies) names.push_back(energy.name);
@@ -110,6 +130,28 @@ TEST(Dynamic, SaysLostWhenTheDataAreElsewhere) {
   for (std::size_t j = 0; j < result.joints.size(); ++j) {  // nothing observed: all joints frozen
     EXPECT_EQ(result.joints[j], before.joints[j]);
   }
+}
+
+// Some empty frames, then the body stands 0.9 m aside and 0.5 m farther away, out of reach.
+double ErrorAfterReEntry(double lost_above) {
+  FrameStage first;
+  Rigidd elsewhere = CameraFromStart();
+  elsewhere.translation += Vector3d(-0.9, 0.0, 0.5);
+  ArmStage second{2, SkinDualQuaternion, elsewhere};
+  Settings settings;
+  settings.watch.lost_above = lost_above;
+  Dynamic tracker(settings, HumanSkeleton());
+  tracker.Start(first.body, first.camera);
+  for (int i = 0; i < 2; ++i) tracker.TrackFrame(first.Frame(i, 0.0));
+  tracker.TrackFrame({2, 2 / 30.0, DepthImage(320, 240)});
+  TrackResult last;
+  for (int i = 3; i < 6; ++i) last = tracker.TrackFrame(second.Frame(i, 0.0));
+  return second.MeanError(last, 0.0);
+}
+
+TEST(Dynamic, FindsABodyThatReEntersElsewhereIfAreasAreWatched) {
+  EXPECT_GT(ErrorAfterReEntry(0.0), 0.5);
+  EXPECT_LT(ErrorAfterReEntry(0.065), 0.02);
 }
 
 // What the frame shows of the body is enough to go on, but an arm is missing.

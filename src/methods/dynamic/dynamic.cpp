@@ -5,13 +5,15 @@
 #include <optional>
 
 #include "core/error.h"
+#include "geometry/mesh_rasterizer.h"
 #include "math/angles.h"
 #include "math/rigid.h"
 #include "methods/dynamic/energy_terms.h"
 #include "methods/dynamic/level.h"
-#include "methods/dynamic/placement.h"
 #include "methods/dynamic/pose_solver.h"
 #include "methods/dynamic/shape_step.h"
+#include "tracking/depth_gap.h"
+#include "tracking/facing.h"
 #include "tracking/frame_checks.h"
 
 namespace vitruvia::dynamic {
@@ -36,6 +38,12 @@ std::vector<int> CoarseVertices(const TrackedMesh& mesh, const AssociationSettin
 double PoseCutoff(const AssociationSettings& settings, int iteration, int iterations) {
   const double done = iterations > 1 ? iteration / (iterations - 1.0) : 1.0;
   return settings.cutoff_m * std::pow(settings.last_cutoff_m / settings.cutoff_m, done);
+}
+
+BoneTransforms BonesOf(const TreePose& pose) {
+  BoneTransforms bones;
+  for (const auto& motion : pose.camera_from_rest) bones.push_back(motion.ToRigid());
+  return bones;
 }
 
 }  // namespace
@@ -63,6 +71,10 @@ struct Dynamic::Session {
     if (settings.start == Start::kSearch || watch) {
       start_search.emplace(subject, view, settings.max_depth_m, settings.start_search);
     }
+    if (settings.facing.margin_m > 0.0) {
+      facing.emplace(Facing{FacingWatch(settings.facing), subject.rest.triangles,
+                            MakeRasterizer(Rasterizer::kFrontFaces, view)});
+    }
     theta = Eigen::VectorXd::Zero(tree.joint_count());
     all_joints.assign(tree.joint_count(), 1);
     root_joints.assign(tree.joint_count(), 0);
@@ -73,6 +85,13 @@ struct Dynamic::Session {
   struct Watch {
     BodyAreaMeter meter;
     AreaWatch verdict;
+  };
+
+  // Comparison with the other facing, if enabled in the settings.
+  struct Facing {
+    FacingWatch watch;
+    std::vector<Triangle> triangles;  // of the subject
+    std::unique_ptr<MeshRasterizer> rasterizer;
   };
 
   Level& pose_level() { return coarse ? *coarse : fine; }
@@ -102,6 +121,7 @@ struct Dynamic::Session {
   WorkerTeam team;
   std::optional<StartSearch> start_search;
   std::optional<Watch> watch;
+  std::optional<Facing> facing;
   std::vector<char> all_joints, root_joints;  // per joint: may it move?
 
   // Carried from frame to frame.
@@ -149,6 +169,7 @@ TrackResult Dynamic::TrackFrame(const DepthFrame& frame) {
     if (is_first) FindFirstPose(frame);
     if (session_->placed) {
       fit = FitPose(is_first);
+      if (session_->facing && !is_first) fit = TakeOtherFacing(frame, std::move(fit));
       FitShape(is_first, fit);
       session_->fine.PoseVertices(session_->pose, session_->team, session_->clock);
       if (session_->watch) WatchAreas(frame);
@@ -221,13 +242,15 @@ void Dynamic::WatchAreas(const DepthFrame& frame) {
 BodyAreas Dynamic::MeasureAreas(const DepthImage& depth) {
   constexpr float kNear_m = 0.05f;
   Session& s = *session_;
+  return s.watch->meter.Measure(SubjectVertices(), BonesOf(s.pose), depth, {kNear_m, 1, 0.0f});
+}
+
+std::vector<Vector3f> Dynamic::SubjectVertices() const {
+  const Session& s = *session_;
   std::vector<Vector3f> vertices(s.subject_vertices);
   for (int v = 0; v < s.subject_vertices; ++v)
     vertices[v] = s.fine.surface.posed.At(s.fine.surface.layout.slot_of_vertex[v]);
-  BoneTransforms bones;
-  for (int bone = 0; bone < kBoneCount; ++bone)
-    bones.push_back(s.pose.camera_from_rest[bone].ToRigid());
-  return s.watch->meter.Measure(vertices, bones, depth, {kNear_m, 1, 0.0f});
+  return vertices;
 }
 
 // Aligns the rest pose with the first frame's points by moving only the root's joints.
@@ -269,6 +292,72 @@ Dynamic::FrameFit Dynamic::FitPose(bool is_first) {
   s.theta_before = is_first ? s.theta : start;
   s.tree.Pose(s.camera_from_start, s.theta, s.pose);
   return fit;
+}
+
+// Tries the last pose turned by 180° and the current one with front and back exchanged if model and
+// frame are farther apart in depth than usual. The pose closest to the frame is kept.
+Dynamic::FrameFit Dynamic::TakeOtherFacing(const DepthFrame& frame, FrameFit fit) {
+  Session& s = *session_;
+  if (IsLost(fit)) return fit;
+  const double current_m2 = GapTo(frame.depth);
+  if (!s.facing->watch.IsDue(current_m2)) return fit;
+
+  const TreeStart current{s.camera_from_start, s.theta};
+  const PoseEquations current_equations = s.equations;
+  TreePose last;
+  s.tree.Pose(s.camera_from_start, s.theta_before, last);
+  const Matrix3<double> trunk = last.camera_from_rest.front().ToRigid().rotation;
+  const TreeStart turned{HalfTurn(trunk, last.twist_origin) * s.camera_from_start, s.theta_before};
+  const TreeStart away = StartFrom(s.tree, FacingAway(s.skeleton, BonesOf(s.pose)));
+
+  double least_m2 = s.facing->watch.GapToBeat(current_m2);
+  std::optional<TreeStart> best;
+  FrameFit best_fit;
+  PoseEquations best_equations;
+  for (const TreeStart& start : {turned, away}) {
+    const FrameFit refined = Refine(start);
+    const double reached_m2 = GapTo(frame.depth);
+    if (IsLost(refined) || reached_m2 >= least_m2) continue;
+    least_m2 = reached_m2;
+    best = TreeStart{s.camera_from_start, s.theta};
+    best_fit = refined;
+    best_equations = s.equations;
+  }
+  if (best) {
+    s.facing->watch.NoteFound();
+    s.theta_before = best->theta;  // the body is at rest
+    fit = best_fit;
+  }
+  const TreeStart& taken = best ? *best : current;
+  s.camera_from_start = taken.camera_from_start;
+  s.theta = taken.theta;
+  s.equations = best ? best_equations : current_equations;
+  s.tree.Pose(s.camera_from_start, s.theta, s.pose);
+  s.clock.Lap(TimedStep::kSolve);
+  return fit;
+}
+
+// Iterates from a hypothesis; the session's pose is the one that is reached.
+Dynamic::FrameFit Dynamic::Refine(const TreeStart& start) {
+  Session& s = *session_;
+  s.camera_from_start = start.camera_from_start;
+  s.theta = start.theta;
+  const int limit = settings_.pose.first_frame_iterations;
+  FrameFit fit;
+  while (fit.iterations < limit && !fit.converged && fit.solved) IteratePose(limit, fit);
+  s.tree.Pose(s.camera_from_start, s.theta, s.pose);
+  return fit;
+}
+
+// Of the current pose, m².
+double Dynamic::GapTo(const DepthImage& depth) {
+  constexpr int kStride_px = 2;  // a mean over half of the rows and columns
+  Session& s = *session_;
+  s.fine.PoseVertices(s.pose, s.team, s.clock);
+  const DepthImage& rendered = s.facing->rasterizer->Render(SubjectVertices(), s.facing->triangles);
+  const double gap_m2 = SquaredDepthGap_m2(rendered, depth, kStride_px, settings_.max_depth_m);
+  s.clock.Lap(TimedStep::kSolve);
+  return gap_m2;
 }
 
 // One step of the damped least squares, from new associations.

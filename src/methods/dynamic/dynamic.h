@@ -7,6 +7,7 @@
 
 #include <memory>
 
+#include "methods/dynamic/placement.h"
 #include "methods/dynamic/settings.h"
 #include "methods/dynamic/skeleton_file.h"
 #include "tracking/body_areas.h"
@@ -35,6 +36,10 @@ class Dynamic final : public Tracker {
   void WatchAreas(const DepthFrame& frame);
   BodyAreas MeasureAreas(const DepthImage& depth);
   FrameFit FitPose(bool is_first);
+  FrameFit TakeOtherFacing(const DepthFrame& frame, FrameFit fit);
+  FrameFit Refine(const TreeStart& start);
+  double GapTo(const DepthImage& depth);
+  std::vector<Vector3<float>> SubjectVertices() const;
   void IteratePose(int limit, FrameFit& fit);
   bool IsLost(const FrameFit& fit) const;
   void FitShape(bool is_first, FrameFit& fit);

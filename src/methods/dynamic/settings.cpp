@@ -203,6 +203,7 @@ void Settings::Describe(Fields& f) {
     f.Section("start_search", start_search,
               {.meaning = "search for the first pose, or for a subject that is not tracked"});
   }
+  f.Section("facing", facing, {.meaning = "search for a body that is tracked back to front"});
   f.Section("uncertainty", uncertainty,
             {.meaning = "covariances of the joints, from the normal equations"});
   DescribeMaxDepth(f, max_depth_m);

@@ -6,6 +6,7 @@
 
 #include "config/settings.h"
 #include "tracking/area_watch.h"
+#include "tracking/facing.h"
 #include "tracking/joint_uncertainty.h"
 #include "tracking/start_search.h"
 
@@ -68,6 +69,7 @@ struct Settings {
   PlacementSettings placement;      // of start kRestPose
   PoseSearchSettings start_search;  // of start kSearch, and where areas are watched
   AreaWatchSettings watch;
+  FacingSettings facing{.margin_m = 0.0};
   UncertaintySettings uncertainty;
   double max_depth_m = 8.0;
   double lost_below = 0.3;

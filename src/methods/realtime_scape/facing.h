@@ -1,20 +1,15 @@
-// Front or back: finds out that a body is tracked with its front where its back is.
+// Compares a pose with those of the other facing (tracking/facing.h).
 #pragma once
 
 #include <optional>
 
 #include "methods/realtime_scape/pose_fitter.h"
-#include "tracking/search_pause.h"
+#include "tracking/facing.h"
 
 namespace vitruvia::realtime_scape {
 
-// The pose with the same joints in which front and back, and left and right, are exchanged: each
-// bone takes the place of its mirror image and is turned by 180° about the rest pose's vertical.
-BodyPose FacingAway(const Model& model, const BodyPose& pose);
-
 // Compares the pose with those of the other facing when model and frame are farther apart in depth
-// than usual. A body seen from behind has nearly the outline that it has from the front, so that
-// neither classes of vertices nor areas tell one from the other.
+// than usual.
 class FacingCheck {
  public:
   // `model` must outlive the check, which has its own fitter and clock.
@@ -27,14 +22,12 @@ class FacingCheck {
                                    const DepthImage& rendered, const BodyPose& last);
 
  private:
-  bool IsDue(double gap_m2);
   double GapTo(const Observation& observation, const DepthImage& rendered) const;  // m²
 
   const Model& model_;
   Settings settings_;
   PoseFitter fitter_;
-  double usual_m2_ = -1.0;  // gap; negative before the first frame
-  SearchPause pause_;
+  FacingWatch watch_;
 };
 
 }  // namespace vitruvia::realtime_scape

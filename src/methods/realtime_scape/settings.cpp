@@ -82,35 +82,6 @@ void LimbSettings::Describe(Fields& f) {
              .source = kSource});
 }
 
-void FacingSettings::Describe(Fields& f) {
-  f.Number("margin_m", margin_m,
-           {.meaning = "the pose with front and back exchanged is tried when the root mean square "
-                       "of the differences in depth between model and frame exceeds the usual one "
-                       "by this in square, and is taken if it is lower by as much; 0: never",
-            .unit = "m",
-            .min = 0,
-            .max = 1,
-            .origin = Origin::kTuned,
-            .source = "half_turn of stability/realtime_scape"});
-  if (!f.Applies(margin_m > 0.0)) return;
-  f.Number("least_decrease", least_decrease,
-           {.meaning = "share by which the exchanged pose must lower the mean square of these "
-                       "differences too: noise of some centimetres makes them vary by more than "
-                       "margin_m",
-            .min = 0,
-            .max = 1,
-            .origin = Origin::kTuned,
-            .source = "half_turn of stability/realtime_scape, noise and few_pairs of causes"});
-  f.Integer("pause", pause,
-            {.meaning = "least number of frames between two such trials; doubled by each trial "
-                        "that finds nothing",
-             .unit = "frames",
-             .min = 1,
-             .max = 1e6,
-             .origin = Origin::kGuessed,
-             .source = "as recovery.pause"});
-}
-
 void StoppingSettings::Describe(Fields& f) {
   f.Number(
       "rotation_step_deg", rotation_step_deg,

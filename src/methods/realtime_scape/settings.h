@@ -9,6 +9,7 @@
 #include "tracking/area_watch.h"
 #include "tracking/classification.h"
 #include "tracking/depth_noise.h"
+#include "tracking/facing.h"
 #include "tracking/joint_uncertainty.h"
 #include "tracking/placement.h"
 #include "tracking/relocalization_settings.h"
@@ -132,14 +133,6 @@ struct LimbSettings {
   double min_unexplained_m2 = 0.0;  // 0: limbs are not searched
   double margin = 0.01;
   int num_targets = 8, num_swivels = 12, num_refined = 2;
-  void Describe(Fields& fields);
-};
-
-// Search for the other facing (facing.h).
-struct FacingSettings {
-  double margin_m = 0.006;       // 0: facing is not checked
-  double least_decrease = 0.35;  // share of the squared gap
-  int pause = 5;                 // frames
   void Describe(Fields& fields);
 };
 
