@@ -14,7 +14,7 @@ namespace vitruvia {
 
 // Search for the other facing.
 struct FacingSettings {
-  double margin_m = 0.006;       // 0: facing is not checked
+  double margin_m = 0.01;        // 0: facing is not checked
   double least_decrease = 0.35;  // share of the squared gap
   int pause = 5;                 // frames
   void Describe(Fields& fields);
@@ -39,14 +39,16 @@ class FacingWatch {
   bool IsDue(double gap_m2);
   // Another facing is taken if its gap is below this.
   double GapToBeat(double current_m2) const;  // m²
-  // To be called after another facing was taken.
-  void NoteFound() { pause_.Reset(); }
+  // To be called after each trial: whether another facing was taken. A gap at which none was better
+  // is usual from then on, so that a pose that the model cannot follow is not tried in each frame.
+  void NoteTrial(bool found);
 
  private:
   double margin_m2() const { return settings_.margin_m * settings_.margin_m; }
 
   FacingSettings settings_;
   double usual_m2_ = -1.0;  // gap; negative before the first frame
+  double tried_m2_ = 0.0;   // gap of the last trial
   SearchPause pause_;
 };
 

@@ -1,8 +1,6 @@
 // When another facing is tried, and what it must reach.
 #include "tracking/facing.h"
 
-#include <vector>
-
 #include <gtest/gtest.h>
 
 namespace vitruvia {
@@ -17,16 +15,28 @@ TEST(FacingWatch, IsDueWhenTheGapExceedsTheUsualOneByTheMarginInSquare) {
   EXPECT_TRUE(watch.IsDue(kUsual_m2 + 1.1 * kMargin_m2));  // the usual gap has followed a little
 }
 
-TEST(FacingWatch, PausesAfterATrialTwiceAsLongAfterEachThatFindsNothing) {
+TEST(FacingWatch, AGapThatWasTriedInVainIsUsual) {
   FacingWatch watch(FacingSettings{.margin_m = 0.006, .least_decrease = 0.35, .pause = 2});
   watch.IsDue(kUsual_m2);
-  std::vector<int> due_frames;
-  for (int i = 0; i < 16; ++i) {
-    if (watch.IsDue(1e-3)) due_frames.push_back(i);
+  double gap_m2 = 1e-3;
+  ASSERT_TRUE(watch.IsDue(gap_m2));
+  watch.NoteTrial(false);
+  for (int i = 0; i < 10; ++i) EXPECT_FALSE(watch.IsDue(gap_m2));
+  gap_m2 += 1.1 * kMargin_m2;
+  ASSERT_TRUE(watch.IsDue(gap_m2));
+  watch.NoteTrial(false);
+  gap_m2 += 1.1 * kMargin_m2;
+  EXPECT_FALSE(watch.IsDue(gap_m2)) << "within the pause";
+  EXPECT_TRUE(watch.IsDue(gap_m2));
+}
+
+TEST(FacingWatch, AGapThatAnotherFacingClosedStaysUnusual) {
+  FacingWatch watch(FacingSettings{.margin_m = 0.006});
+  watch.IsDue(kUsual_m2);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(watch.IsDue(1e-3));
+    watch.NoteTrial(true);
   }
-  EXPECT_EQ(due_frames, (std::vector<int>{0, 2, 6, 14}));
-  watch.NoteFound();
-  EXPECT_TRUE(watch.IsDue(1e-3));
 }
 
 TEST(FacingWatch, DemandsMarginAndShare) {

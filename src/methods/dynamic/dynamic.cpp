@@ -134,6 +134,7 @@ struct Dynamic::Session {
 
   // Of the frame at hand.
   PoseEquations equations;
+  std::vector<Vector3f> subject_surface;  // posed vertices in the subject's order
   Clock clock;
 };
 
@@ -245,12 +246,12 @@ BodyAreas Dynamic::MeasureAreas(const DepthImage& depth) {
   return s.watch->meter.Measure(SubjectVertices(), BonesOf(s.pose), depth, {kNear_m, 1, 0.0f});
 }
 
-std::vector<Vector3f> Dynamic::SubjectVertices() const {
-  const Session& s = *session_;
-  std::vector<Vector3f> vertices(s.subject_vertices);
+const std::vector<Vector3f>& Dynamic::SubjectVertices() {
+  Session& s = *session_;
+  s.subject_surface.resize(s.subject_vertices);
   for (int v = 0; v < s.subject_vertices; ++v)
-    vertices[v] = s.fine.surface.posed.At(s.fine.surface.layout.slot_of_vertex[v]);
-  return vertices;
+    s.subject_surface[v] = s.fine.surface.posed.At(s.fine.surface.layout.slot_of_vertex[v]);
+  return s.subject_surface;
 }
 
 // Aligns the rest pose with the first frame's points by moving only the root's joints.
@@ -323,8 +324,8 @@ Dynamic::FrameFit Dynamic::TakeOtherFacing(const DepthFrame& frame, FrameFit fit
     best_fit = refined;
     best_equations = s.equations;
   }
+  s.facing->watch.NoteTrial(best.has_value());
   if (best) {
-    s.facing->watch.NoteFound();
     s.theta_before = best->theta;  // the body is at rest
     fit = best_fit;
   }

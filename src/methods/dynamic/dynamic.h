@@ -39,7 +39,7 @@ class Dynamic final : public Tracker {
   FrameFit TakeOtherFacing(const DepthFrame& frame, FrameFit fit);
   FrameFit Refine(const TreeStart& start);
   double GapTo(const DepthImage& depth);
-  std::vector<Vector3<float>> SubjectVertices() const;
+  const std::vector<Vector3<float>>& SubjectVertices();
   void IteratePose(int limit, FrameFit& fit);
   bool IsLost(const FrameFit& fit) const;
   void FitShape(bool is_first, FrameFit& fit);

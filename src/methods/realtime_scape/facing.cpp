@@ -29,7 +29,7 @@ std::optional<FitSummary> FacingCheck::Search(const Observation& observation,
     least_m2 = reached_m2;
     best = std::move(fit);
   }
-  if (best) watch_.NoteFound();
+  watch_.NoteTrial(best.has_value());
   return best;
 }
 
