@@ -7,7 +7,7 @@ namespace vitruvia {
 namespace fs = std::filesystem;
 
 void PublishChecked(SequenceWriter& writer, const fs::path& folder,
-                    const std::vector<std::string>& warnings) {
+                    const std::vector<std::string>& warnings, int threads) {
   std::vector<std::string> all;
   for (const std::string& warning : warnings) {
     if (warning.empty()) continue;
@@ -15,7 +15,8 @@ void PublishChecked(SequenceWriter& writer, const fs::path& folder,
     all.push_back(warning);
   }
   const fs::path staged = writer.Complete();
-  for (std::string& found : RequireConsistent(SequenceReader(staged), FrameSelection::kAll, folder))
+  for (std::string& found :
+       RequireConsistent(SequenceReader(staged), FrameSelection::kAll, folder, threads))
     all.push_back(std::move(found));
   if (!all.empty()) writer.Note("warnings", all);
   writer.Publish();

@@ -336,7 +336,7 @@ DepthImport ImportDepthSequence(const DepthImportSettings& s, int threads, const
   result.cut = ReportCutout(found.people, result.chosen, shares, s.cutout.following);
   writer.WritePreview(Sheet(reader, frames.files, found, result.chosen, result.cut));
   writer.Note("cutout", NoteOf(result));
-  PublishChecked(writer, folder, {});
+  PublishChecked(writer, folder, {}, threads);
   return result;
 }
 

@@ -18,7 +18,7 @@ Findings CheckTrueJoints(const SequenceReader& sequence);
 Findings CheckTrueSurface(const SequenceReader& sequence, const std::vector<int>& frames);
 
 // depth/ alone: empty or constant images, byte order, repeated images.
-Findings CheckImages(const SequenceReader& sequence, const std::vector<int>& frames);
+Findings CheckImages(const SequenceReader& sequence, const std::vector<int>& frames, int threads);
 
 // depth/ against the first of these that is available: the true surface, the true joints, the
 // subject's size.

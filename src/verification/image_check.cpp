@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/files.h"
+#include "core/worker_team.h"
 #include "math/statistics.h"
 #include "sequence/sequence_files.h"
 #include "verification/checks.h"
@@ -91,6 +92,17 @@ double TrueMotion(const SequenceReader& sequence, const RepeatedFrames& run) {
   return most_m;
 }
 
+std::vector<ImageSummary> Summaries(const SequenceReader& sequence, const std::vector<int>& frames,
+                                    int threads) {
+  std::vector<ImageSummary> summaries(frames.size());
+  WorkerTeam team(threads);
+  team.For(static_cast<int>(frames.size()), 1, [&](int begin, int) {
+    const auto i = static_cast<std::size_t>(begin);
+    summaries[i] = Summarize(sequence.ReadDepth(frames[i]));
+  });
+  return summaries;
+}
+
 bool IsEmpty(const SequenceReader& sequence, int frame) {
   return Summarize(sequence.ReadDepth(frame)).measured == 0;
 }
@@ -120,15 +132,16 @@ std::optional<Finding> RepetitionProblem(const SequenceReader& sequence) {
 
 }  // namespace
 
-Findings CheckImages(const SequenceReader& sequence, const std::vector<int>& frames) {
+Findings CheckImages(const SequenceReader& sequence, const std::vector<int>& frames, int threads) {
+  const std::vector<ImageSummary> summaries = Summaries(sequence, frames, threads);
   std::size_t empty = 0, constant = 0;
   float level_m = 0.0f;
   Findings findings;
   std::optional<int> first_empty;
   bool bytes_checked = false;
-  for (const int frame : frames) {
-    const DepthImage depth = sequence.ReadDepth(frame);
-    const ImageSummary summary = Summarize(depth);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const int frame = frames[i];
+    const ImageSummary& summary = summaries[i];
     if (summary.measured == 0 && !first_empty) first_empty = frame;
     empty += summary.measured == 0 ? 1 : 0;
     if (summary.measured < kEnoughPixels) continue;
@@ -139,7 +152,8 @@ Findings CheckImages(const SequenceReader& sequence, const std::vector<int>& fra
     }
     if (bytes_checked) continue;
     bytes_checked = true;
-    if (const auto problem = ByteOrderProblem(depth, sequence.info().depth_unit_m, frame))
+    if (const auto problem =
+            ByteOrderProblem(sequence.ReadDepth(frame), sequence.info().depth_unit_m, frame))
       return {*problem};
   }
   const std::string of =

@@ -58,7 +58,8 @@ std::vector<std::string> Judge(const Findings& findings, const fs::path& shown_a
 
 }  // namespace
 
-Findings FindInconsistencies(const SequenceReader& sequence, FrameSelection selection) {
+Findings FindInconsistencies(const SequenceReader& sequence, FrameSelection selection,
+                             int threads) {
   const std::vector<int> frames =
       EvenlySpread(sequence.info().frames, CountOf(selection, sequence.info().frames));
   const std::function<Findings()> checks[] = {
@@ -67,7 +68,7 @@ Findings FindInconsistencies(const SequenceReader& sequence, FrameSelection sele
       [&] { return CheckRestMeshOf(sequence); },
       [&] { return CheckTrueJoints(sequence); },
       [&] { return CheckTrueSurface(sequence, frames); },
-      [&] { return CheckImages(sequence, frames); },
+      [&] { return CheckImages(sequence, frames, threads); },
       [&] { return CheckDepth(sequence, frames); },
       [&] { return CheckFrames(sequence, frames); },
   };
@@ -81,8 +82,8 @@ Findings FindInconsistencies(const SequenceReader& sequence, FrameSelection sele
 }
 
 std::vector<std::string> RequireConsistent(const SequenceReader& sequence, FrameSelection selection,
-                                           const fs::path& shown_as) {
-  return Judge(FindInconsistencies(sequence, selection), shown_as);
+                                           const fs::path& shown_as, int threads) {
+  return Judge(FindInconsistencies(sequence, selection, threads), shown_as);
 }
 
 std::vector<std::string> RequireConsistent(const BodyModel& subject, const fs::path& shown_as) {

@@ -21,12 +21,14 @@ enum class FrameSelection {
 // Findings in the order of the checks: camera, subject, true surface at rest, true joints, true
 // surface, images, depth against truth. Stops at the first error, because later checks depend on
 // earlier ones. DataError if a file is damaged.
-Findings FindInconsistencies(const SequenceReader& sequence, FrameSelection frames);
+// Images are read on so many threads.
+Findings FindInconsistencies(const SequenceReader& sequence, FrameSelection frames,
+                             int threads = 1);
 
 // Prints every warning and returns their texts; DataError with the first error. Messages name files
 // below `shown_as`, the current or future folder of the sequence.
 std::vector<std::string> RequireConsistent(const SequenceReader& sequence, FrameSelection frames,
-                                           const std::filesystem::path& shown_as);
+                                           const std::filesystem::path& shown_as, int threads = 1);
 
 // The same for the subject alone, for a template that is not part of the sequence.
 std::vector<std::string> RequireConsistent(const BodyModel& subject,
