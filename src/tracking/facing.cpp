@@ -14,8 +14,8 @@ void FacingSettings::Describe(Fields& f) {
       "margin_m", margin_m,
       {.meaning = "the pose with front and back exchanged is tried when the root mean square "
                   "of the differences in depth between model and frame exceeds the usual one "
-                  "by this in square, and is taken if it is lower by as much; differences at "
-                  "which no better pose was found are usual from then on; 0: never",
+                  "by this in square, and is taken if it is lower by as much; a trial in vain "
+                  "raises the usual one by as much at most; 0: never",
        .unit = "m",
        .min = 0,
        .max = 1,
@@ -77,7 +77,7 @@ void FacingWatch::NoteTrial(bool found) {
   if (found) {
     pause_.Reset();
   } else {
-    usual_m2_ = tried_m2_;
+    usual_m2_ = std::min(tried_m2_, usual_m2_ + margin_m2());
   }
 }
 

@@ -40,7 +40,8 @@ class FacingWatch {
   // Another facing is taken if its gap is below this.
   double GapToBeat(double current_m2) const;  // m²
   // To be called after each trial: whether another facing was taken. A gap at which none was better
-  // is usual from then on, so that a pose that the model cannot follow is not tried in each frame.
+  // raises the usual one, by the margin at most: a pose that the model cannot quite follow is not
+  // tried in each frame, and a body that is tracked the wrong way round is tried again.
   void NoteTrial(bool found);
 
  private:

@@ -1,6 +1,8 @@
 // When another facing is tried, and what it must reach.
 #include "tracking/facing.h"
 
+#include <vector>
+
 #include <gtest/gtest.h>
 
 namespace vitruvia {
@@ -15,19 +17,25 @@ TEST(FacingWatch, IsDueWhenTheGapExceedsTheUsualOneByTheMarginInSquare) {
   EXPECT_TRUE(watch.IsDue(kUsual_m2 + 1.1 * kMargin_m2));  // the usual gap has followed a little
 }
 
-TEST(FacingWatch, AGapThatWasTriedInVainIsUsual) {
-  FacingWatch watch(FacingSettings{.margin_m = 0.006, .least_decrease = 0.35, .pause = 2});
+TEST(FacingWatch, AGapThatWasTriedInVainRaisesTheUsualOne) {
+  FacingWatch watch(FacingSettings{.margin_m = 0.006});
   watch.IsDue(kUsual_m2);
-  double gap_m2 = 1e-3;
+  const double gap_m2 = kUsual_m2 + 1.9 * kMargin_m2;
   ASSERT_TRUE(watch.IsDue(gap_m2));
   watch.NoteTrial(false);
   for (int i = 0; i < 10; ++i) EXPECT_FALSE(watch.IsDue(gap_m2));
-  gap_m2 += 1.1 * kMargin_m2;
-  ASSERT_TRUE(watch.IsDue(gap_m2));
-  watch.NoteTrial(false);
-  gap_m2 += 1.1 * kMargin_m2;
-  EXPECT_FALSE(watch.IsDue(gap_m2)) << "within the pause";
-  EXPECT_TRUE(watch.IsDue(gap_m2));
+}
+
+TEST(FacingWatch, TriesALargeGapAgainAfterPausesThatDouble) {
+  FacingWatch watch(FacingSettings{.margin_m = 0.006, .least_decrease = 0.35, .pause = 2});
+  watch.IsDue(kUsual_m2);
+  std::vector<int> due_frames;
+  for (int i = 0; i < 16; ++i) {
+    if (!watch.IsDue(1e-3)) continue;
+    due_frames.push_back(i);
+    watch.NoteTrial(false);
+  }
+  EXPECT_EQ(due_frames, (std::vector<int>{0, 2, 6, 14}));
 }
 
 TEST(FacingWatch, AGapThatAnotherFacingClosedStaysUnusual) {
