@@ -80,7 +80,7 @@ void List() {
   PrintConfigs("configs");
 }
 
-// Of all commands: an empty text is never a choice.
+// Every argument of every command refuses an empty text.
 void RefuseEmptyArguments(CLI::App& app) {
   for (CLI::Option* option : app.get_options()) {
     if (option->get_items_expected_max() > 0) option->check(NotEmpty());

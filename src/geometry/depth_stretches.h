@@ -17,8 +17,8 @@ void ForEachStretchWithDepth(int width, int stride, std::initializer_list<const 
   const auto has_depth = [&](int column) {
     return std::any_of(rows.begin(), rows.end(), [&](const float* row) {
       for (int first = column; first < column + step; first += kLanes) {
-        const int last_first = std::min(first, width - kLanes);
-        if (IsAnyPositive(row + last_first)) return true;
+        const int within_row = std::min(first, width - kLanes);
+        if (IsAnyPositive(row + within_row)) return true;
       }
       return false;
     });

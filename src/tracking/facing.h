@@ -39,9 +39,9 @@ class FacingWatch {
   bool IsDue(double gap_m2);
   // Another facing is taken if its gap is below this.
   double GapToBeat(double current_m2) const;  // m²
-  // To be called after each trial: whether another facing was taken. A gap at which none was better
-  // raises the usual one, by the margin at most: a pose that the model cannot quite follow is not
-  // tried in each frame, and a body that is tracked the wrong way round is tried again.
+  // To be called after each trial: whether another facing was taken. A trial without success raises
+  // the usual gap by the margin: a pose that the model cannot quite follow is not tried in each
+  // frame, and a body that is tracked the wrong way round is tried again.
   void NoteTrial(bool found);
 
  private:
@@ -49,7 +49,6 @@ class FacingWatch {
 
   FacingSettings settings_;
   double usual_m2_ = -1.0;  // gap; negative before the first frame
-  double tried_m2_ = 0.0;   // gap of the last trial
   SearchPause pause_;
 };
 

@@ -21,7 +21,7 @@ enum class FrameSelection {
 // Findings in the order of the checks: camera, subject, true surface at rest, true joints, true
 // surface, images, depth against truth. Stops at the first error, because later checks depend on
 // earlier ones. DataError if a file is damaged.
-// Images are read on so many threads.
+// `threads`: for reading the images.
 Findings FindInconsistencies(const SequenceReader& sequence, FrameSelection frames,
                              int threads = 1);
 

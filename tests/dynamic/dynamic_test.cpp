@@ -85,7 +85,7 @@ double ErrorAfterAHalfTurn(double margin_m) {
 
 TEST(Dynamic, FollowsAHalfTurnFromOneFrameToTheNextIfFacingIsChecked) {
   EXPECT_GT(ErrorAfterAHalfTurn(0.0), 0.05);
-  EXPECT_LT(ErrorAfterAHalfTurn(0.006), 0.02);
+  EXPECT_LT(ErrorAfterAHalfTurn(FacingSettings{}.margin_m), 0.02);
 }
 
 std::vector<std::string> NamesOf(const std::vector<NamedValue>& energies) {

@@ -56,7 +56,7 @@ double ErrorAfterAHalfTurn(double margin_m) {
 
 TEST(FacingCheck, FollowsAHalfTurnFromOneFrameToTheNext) {
   EXPECT_GT(ErrorAfterAHalfTurn(0.0), 0.05);
-  EXPECT_LT(ErrorAfterAHalfTurn(0.006), 0.02);
+  EXPECT_LT(ErrorAfterAHalfTurn(FacingSettings{}.margin_m), 0.02);
 }
 
 }  // namespace
