@@ -21,19 +21,29 @@ bool IsExplained(const DepthImage& depth, Pixel at, float z, const NearnessSetti
 
 }  // namespace
 
+void VertexClasses::Clear() {
+  near_surface.clear();
+  observed_depth.clear();
+  weight.clear();
+  elsewhere.clear();
+}
+
+void VertexClasses::AddNearSurface(int vertex, float depth_m) {
+  near_surface.push_back(vertex);
+  observed_depth.push_back(depth_m);
+  weight.push_back(1.0f);
+}
+
 void ClassifyVertices(const std::vector<Vector3f>& vertices, const std::vector<int>& visible,
                       const DepthImage& captured, const PinholeCamera& camera,
                       const NearnessSettings& nearness, VertexClasses& classes) {
-  classes.near_surface.clear();
-  classes.observed_depth.clear();
-  classes.elsewhere.clear();
+  classes.Clear();
   for (const int i : visible) {
     const Vector3f& vertex = vertices[i];
     const auto pixel = camera.Project(vertex);
     const float z = SampleDepth(captured, pixel.x(), pixel.y(), nearness.smooth_m);
     if (z > 0.0f && std::abs(vertex.z() - z) < nearness.depth_m) {
-      classes.near_surface.push_back(i);
-      classes.observed_depth.push_back(z);
+      classes.AddNearSurface(i, z);
     } else if (nearness.behind == BehindSurface::kHidden && z > 0.0f && vertex.z() > z) {
       continue;
     } else if (const auto at = camera.PixelAt<float>(pixel);
@@ -65,6 +75,23 @@ void AverageObservedDepth(const std::vector<Vector3f>& vertices, const DepthImag
     }
     if (count > 0) classes.observed_depth[k] = vertex.z() + sum_m / static_cast<float>(count);
   }
+}
+
+PixelSharing::PixelSharing(const PinholeCamera& camera)
+    : camera_(camera), readers_(static_cast<std::size_t>(camera.width) * camera.height + 1, 0) {}
+
+void PixelSharing::Weigh(const std::vector<Vector3f>& vertices, float extent,
+                         VertexClasses& classes) {
+  const int outside = static_cast<int>(readers_.size()) - 1;
+  pixels_.clear();
+  for (const int i : classes.near_surface) {
+    const auto at = camera_.PixelOf(vertices[i]);
+    pixels_.push_back(at ? at->v * camera_.width + at->u : outside);
+    ++readers_[pixels_.back()];
+  }
+  for (std::size_t k = 0; k < pixels_.size(); ++k)
+    classes.weight[k] = 1.0f - extent + extent / static_cast<float>(readers_[pixels_[k]]);
+  for (const int pixel : pixels_) readers_[pixel] = 0;
 }
 
 void FindUnexplainedPoints(const PointCloud& cloud, const DepthImage& rendered,

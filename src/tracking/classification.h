@@ -31,7 +31,11 @@ struct NearnessSettings {
 struct VertexClasses {
   std::vector<int> near_surface;      // V1: vertex indices
   std::vector<float> observed_depth;  // V1: the captured depth at each one's pixel, metres
+  std::vector<float> weight;          // V1: of each one's observation; 1 unless pixels are shared
   std::vector<int> elsewhere;         // V2: vertex indices
+
+  void Clear();
+  void AddNearSurface(int vertex, float depth_m);
 };
 void ClassifyVertices(const std::vector<Vector3f>& vertices, const std::vector<int>& visible,
                       const DepthImage& captured, const PinholeCamera& camera,
@@ -44,6 +48,25 @@ void ClassifyVertices(const std::vector<Vector3f>& vertices, const std::vector<i
 void AverageObservedDepth(const std::vector<Vector3f>& vertices, const DepthImage& captured,
                           const DepthImage& rendered, const PinholeCamera& camera, int window_px,
                           float nearness_m, VertexClasses& classes);
+
+// Shares the weight of a pixel among the vertices of V1 that read it.
+//
+// A mesh is dense in the head, the hands and the feet, where several vertices read one pixel. If
+// each counts in full, the noise of that pixel counts as often, and terms that hold a bone against
+// noise lose by the same factor. Not in the paper.
+class PixelSharing {
+ public:
+  explicit PixelSharing(const PinholeCamera& camera);
+
+  // The weight of each of n vertices in a pixel becomes 1 − extent + extent / n: 1 for an extent of
+  // 0; for an extent of 1, the weights of a pixel sum up to 1.
+  void Weigh(const std::vector<Vector3f>& vertices, float extent, VertexClasses& classes);
+
+ private:
+  PinholeCamera camera_;
+  std::vector<int> readers_;  // per pixel, and one for vertices outside; all 0 between calls
+  std::vector<int> pixels_;   // of each vertex of V1
+};
 
 // P2: indices of the cloud's points that the rendered model does not explain.
 void FindUnexplainedPoints(const PointCloud& cloud, const DepthImage& rendered,

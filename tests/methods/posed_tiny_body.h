@@ -98,8 +98,7 @@ struct PosedTinyBody {
     const BoneTransforms transforms = ToTransforms(model, pose);
     for (int i = 0; i < VertexCount(); i += stride) {
       const double depth = PosedVertex(model, transforms, i).z() + random.Normal(0, size_m);
-      data.classes.near_surface.push_back(i);
-      data.classes.observed_depth.push_back(static_cast<float>(depth));
+      data.classes.AddNearSurface(i, static_cast<float>(depth));
     }
     return data;
   }

@@ -127,6 +127,7 @@ const std::map<std::string, Change>& Changes() {
       {"fit.pair_weight", {0.5}},
       {"fit.surface_stride", {2}},
       {"fit.average_px", {1}},
+      {"fit.pixel_sharing", {1}},
       {"fit.kernel", {"tukey"}},
       {"fit.kernel_scale_m", {0.002}},
       {"fit.noise.axial_base_m", {0.01}},

@@ -291,6 +291,14 @@ TEST_F(Terms, TheFitIsZeroWhereEveryVertexIsWhereItWasSeen) {
   }
 }
 
+TEST_F(Terms, AVertexOfV1CountsByItsWeight) {
+  FitData data = Depths(bent, 7, 0.002);
+  const double energy = Energy(FitPoints(data), bent);
+  ASSERT_GT(energy, 0.0);
+  for (float& weight : data.classes.weight) weight = 0.25f;
+  EXPECT_NEAR(Energy(FitPoints(data), bent), 0.25 * energy, 1e-12 * energy);
+}
+
 TEST_F(Terms, RobustKernelsChangeNothingWhereResidualsAreSmall) {
   const FitData data = Pairs(bent, 7, 1e-4);
   const double plain = Energy(FitPoints(data), bent);

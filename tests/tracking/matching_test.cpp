@@ -251,10 +251,27 @@ TEST(AverageObservedDepth, IsTheVertexsDepthPlusTheMeanDifferenceRoundIt) {
   captured(3, 3) = 0.0f;  // not measured
   const std::vector<Vector3f> vertices{{0.001f, 0.0f, 2.002f}};
   VertexClasses classes;
-  classes.near_surface = {0};
-  classes.observed_depth = {2.04f};
+  classes.AddNearSurface(0, 2.04f);
   AverageObservedDepth(vertices, captured, rendered, camera, 1, 0.05f, classes);
   EXPECT_NEAR(classes.observed_depth[0], 2.002 + (6 * 0.01 + 0.04) / 7, 1e-5);
+}
+
+TEST(PixelSharing, TheVerticesOfAPixelShareItsWeight) {
+  PinholeCamera camera{20, 10, 10.0, 10.0, 9.5, 4.5};
+  const auto at = [&](float u, float v) { return camera.Unproject(u, v, 2.0f); };
+  const std::vector<Vector3f> vertices{at(3.1f, 4.0f), at(12.0f, 4.0f), at(2.9f, 4.2f),
+                                       at(7.0f, 4.0f), at(3.0f, 3.8f)};
+  VertexClasses classes;
+  for (const int v : {0, 1, 2, 4}) classes.AddNearSurface(v, 2.0f);
+  PixelSharing sharing(camera);
+  sharing.Weigh(vertices, 1.0f, classes);
+  const auto third = 1.0f / 3.0f;
+  EXPECT_EQ(classes.weight, (std::vector<float>{third, 1.0f, third, third}));
+  sharing.Weigh(vertices, 0.5f, classes);  // nothing is left of the first call
+  for (const int k : {0, 2, 3}) EXPECT_FLOAT_EQ(classes.weight[k], 0.5f + 0.5f / 3.0f);
+  EXPECT_EQ(classes.weight[1], 1.0f);
+  sharing.Weigh(vertices, 0.0f, classes);
+  EXPECT_EQ(classes.weight, (std::vector<float>{1.0f, 1.0f, 1.0f, 1.0f}));
 }
 
 }  // namespace

@@ -150,6 +150,14 @@ void FitSettings::DescribeWeights(Fields& f) {
              .max = 16,
              .origin = Origin::kPaper,
              .source = "paper A: 0"});
+  f.Number("pixel_sharing", pixel_sharing,
+           {.meaning = "extent to which the V1 vertices in one pixel share its weight, so that the "
+                       "noise of a pixel counts once where the mesh is denser than the image: the "
+                       "row of each of n vertices weighs 1 - extent + extent / n",
+            .min = 0,
+            .max = 1,
+            .origin = Origin::kPaper,
+            .source = "paper A: 0"});
   f.Choice("kernel", kernel,
            {{"none", RobustKernel::kNone},
             {"huber", RobustKernel::kHuber},

@@ -17,6 +17,7 @@ PoseFitter::PoseFitter(const Model& model, const PinholeCamera& camera, const Se
       settings_(settings),
       joint_term_(model, settings.joint_rows),
       rasterizer_(MakeRasterizer(settings.fit.rasterizer, camera)),
+      pixel_sharing_(camera),
       correspondence_finder_(model, camera, settings),
       solver_(MakeLinearSolver(settings.solver.linear)),
       equations_(kBoneCount),
@@ -128,6 +129,10 @@ const Classification& PoseFitter::Classify(const Observation& observation,
   ClassifyVertices(surface.vertices, view.visible, *observation.depth, camera_, nearness,
                    classification_.classes);
   FindUnexplainedPoints(observation.cloud, *view.depth, nearness, classification_.unexplained);
+  if (settings_.fit.pixel_sharing > 0.0) {
+    pixel_sharing_.Weigh(surface.vertices, static_cast<float>(settings_.fit.pixel_sharing),
+                         classification_.classes);
+  }
   classification_.counts = CountByBone(model_, view.visible, classification_.classes);
   clock_.Lap(Step::kClassify);
   return classification_;

@@ -101,6 +101,7 @@ class PoseFitter {
   Settings settings_;
   JointTerm joint_term_;
   std::unique_ptr<MeshRasterizer> rasterizer_;
+  PixelSharing pixel_sharing_;
   CorrespondenceFinder correspondence_finder_;
   std::unique_ptr<LinearSolver> solver_;
   StepClock<RealtimeScapeStep> clock_;

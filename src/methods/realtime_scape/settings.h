@@ -97,6 +97,7 @@ struct FitSettings {
   double surface_weight = 1.0, pair_weight = 1.0;
   int surface_stride = 1;
   int average_px = 0;
+  double pixel_sharing = 0.0;
   RobustKernel kernel = RobustKernel::kHuber;
   double kernel_scale_m = 0.01;
   NoiseSettings noise{};

@@ -67,8 +67,9 @@ void AddFitTerm(const Model& model, const BodyPose& pose, const PinholeCamera& c
                                   ? vertex.position().z() - observed_depth
                                   : direction.dot(vertex.position() - observed);
     const double noise_weight = NoiseWeight(settings.noise, observed, direction);
-    vertex.AddRow(direction, residual_m, surface_weight * robust(residual_m, noise_weight),
-                  per_unit, equations);
+    const double weight = surface_weight * double{classes.weight[k]};
+    vertex.AddRow(direction, residual_m, weight * robust(residual_m, noise_weight), per_unit,
+                  equations);
   }
   for (const Pair& pair : pairs) {
     const PosedVertex vertex(model, pose, pair.vertex);
