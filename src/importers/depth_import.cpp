@@ -131,6 +131,20 @@ void RequireRoom(const std::vector<DepthImage>& sample, const DepthImportSetting
       s.unit_m * factor));
 }
 
+// Without a measurement in any of them the room would not be known, and nothing would say so.
+void RequireEmptyRoom(const std::vector<DepthImage>& empty, const DepthImportSettings& s) {
+  if (s.cutout.background.source != BackgroundSource::kEmptyFrames) return;
+  const bool is_measured = std::any_of(empty.begin(), empty.end(), [](const DepthImage& image) {
+    return std::any_of(image.pixels().begin(), image.pixels().end(), [](float z) { return z > 0; });
+  });
+  if (is_measured) return;
+  const fs::path& images = s.empty_frames.images.empty() ? s.images : s.empty_frames.images;
+  throw DataError(fmt::format(
+      "{}: empty_frames: none of {} frames looked at holds a measurement; expected images of the "
+      "room without a person, which cutout.background.source empty_frames learns the room from",
+      images.string(), empty.size()));
+}
+
 SequenceInfo InfoOf(const DepthImportSettings& s, const Frames& frames,
                     const PinholeCamera& camera) {
   SequenceInfo info;
@@ -237,6 +251,20 @@ FollowedRecording FollowAndWrite(std::span<const fs::path> files, RecordingFollo
   return follower.Result();
 }
 
+// The likely reason why no piece has a person's size.
+std::string WhyNobody(const FollowedRecording& found, const DepthImportSettings& s) {
+  if (found.tallest_piece_m > s.cutout.person.size.most_height_m) {
+    return fmt::format(
+        "Are the focal lengths those of the images (camera: fx {:g}, fy {:g}), and does the "
+        "background hold the room (cutout.background), so that the person is not one with it?",
+        s.camera.fx, s.camera.fy);
+  }
+  return fmt::format(
+      "Does the person stand still all the time, so that they count as background "
+      "(cutout.background), or beyond far_m ({:g} m)?",
+      s.cutout.far_m);
+}
+
 ChosenPerson RequirePerson(const FollowedRecording& found, const DepthImportSettings& s) {
   const PersonSettings& person = s.cutout.person;
   if (const auto chosen = ChoosePerson(found.people, person, found.at_pixel)) return *chosen;
@@ -250,11 +278,10 @@ ChosenPerson RequirePerson(const FollowedRecording& found, const DepthImportSett
   throw DataError(fmt::format(
       "{}: no person is found in any of {} frames: in front of the room the largest piece has "
       "{:.2g} m², the largest pieces are up to {:.2g} m high; expected at least {:g} m² and {:g} "
-      "to {:g} m (cutout.person.size). Does the person stand still all the time, so that they "
-      "count as background (cutout.background), or beyond far_m ({:g} m)?",
+      "to {:g} m (cutout.person.size). {}",
       where, found.labels.size(), found.largest_piece_m2, found.tallest_piece_m,
       person.size.least_area_m2, person.size.least_height_m, person.size.most_height_m,
-      s.cutout.far_m));
+      WhyNobody(found, s)));
 }
 
 // Writes all masks; returns each one's share of the image.
@@ -332,6 +359,7 @@ DepthImport ImportDepthSequence(const DepthImportSettings& s, int threads, const
   const std::vector<DepthImage> sample = reader.ReadSample(frames.files, samples);
   RequireRoom(sample, s);
   const std::vector<DepthImage> empty = reader.ReadSample(FilesWithoutPerson(s), samples);
+  RequireEmptyRoom(empty, s);
 
   DepthImport result;
   result.camera = reader.camera();
