@@ -3,6 +3,7 @@
 //   LearnRoom (room.h)            from sampled frames: background, noise, floor
 //   PiecesOf                      frame by frame, in any order and on any thread
 //   PeopleFollower (following.h)  frame by frame, in order
+//   SmoothOutlines (outline.h)    frame by frame, in any order and on any thread
 //   ChoosePerson                  selects the person after the last frame
 #pragma once
 
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "cutout/following.h"
+#include "cutout/outline.h"
 
 namespace vitruvia {
 
@@ -29,8 +31,9 @@ struct ChosenPerson {
 std::optional<ChosenPerson> ChoosePerson(const std::vector<FollowedPerson>& people,
                                          const PersonSettings& settings, int at_pixel);
 
-// 255 where the chosen person is.
-MaskImage MaskOf(const Image<std::uint8_t>& people, const ChosenPerson& chosen);
+// kSubject where the chosen person is, kForeignDepth where another depth is measured inside of the
+// person's outline (mask_png.h).
+MaskImage MaskOf(const OutlinedPeople& people, const ChosenPerson& chosen);
 
 struct UnsureFrame {
   int frame = 0;

@@ -28,9 +28,23 @@ std::vector<const DepthImage*> Measured(const std::vector<DepthImage>& frames) {
   return measured;
 }
 
-// Per pixel a quantile of the measured depths.
+// The mean of those depths that differ from one of them by noise. A quantile alone is off by up to
+// half a step of a sensor that measures in steps.
+float MeanNear(const std::vector<float>& depths, float depth, float within_m) {
+  double sum = 0.0;
+  int count = 0;
+  for (const float other : depths) {
+    if (std::abs(other - depth) > within_m) continue;
+    sum += other;
+    ++count;
+  }
+  return static_cast<float>(sum / count);
+}
+
+// Per pixel the mean of the measured depths round a quantile.
 DepthImage FarDepths(const std::vector<const DepthImage*>& frames, double share, double seen_share,
-                     const PinholeCamera& camera) {
+                     const Room& room, double sigmas) {
+  const PinholeCamera& camera = room.camera;
   DepthImage far(camera.width, camera.height);
   std::vector<float> depths;
   for (std::size_t i = 0; i < far.pixels().size(); ++i) {
@@ -45,7 +59,7 @@ DepthImage FarDepths(const std::vector<const DepthImage*>& frames, double share,
     }
     const auto at = depths.begin() + std::lround(share * static_cast<double>(depths.size() - 1));
     std::nth_element(depths.begin(), at, depths.end());
-    far.pixels()[i] = *at;
+    far.pixels()[i] = MeanNear(depths, *at, static_cast<float>(sigmas) * room.NoiseAt(*at));
   }
   return far;
 }
@@ -195,6 +209,23 @@ std::optional<FloorPlane> FindFloor(const std::vector<const DepthImage*>& frames
   return best;
 }
 
+bool HasNeighbour(const MaskImage& foreground, int u, int v) {
+  const auto holds = [&](int x, int y) {
+    return foreground.Contains(x, y) && foreground(x, y) != 0;
+  };
+  return holds(u - 1, v) || holds(u + 1, v) || holds(u, v - 1) || holds(u, v + 1);
+}
+
+// Drops single pixels of the floor that noise lifts out of it: they are spread over all of it.
+void DropSpecks(const MaskImage& certain, MaskImage& foreground) {
+  for (int v = 0; v < foreground.height(); ++v) {
+    for (int u = 0; u < foreground.width(); ++u) {
+      if (foreground(u, v) != 0 && certain(u, v) == 0 && !HasNeighbour(foreground, u, v))
+        foreground(u, v) = 0;
+    }
+  }
+}
+
 // The foreground's pixels that are not certainly above the floor, and what is within reach of them.
 cv::Rect ReachOfLow(const DepthImage& depth, const MaskImage& certain, const MaskImage& foreground,
                     float reach_px_m) {
@@ -218,6 +249,7 @@ cv::Rect ReachOfLow(const DepthImage& depth, const MaskImage& certain, const Mas
 void KeepNearCertain(const DepthImage& depth, const MaskImage& certain,
                      const FloorSettings& settings, const PinholeCamera& camera,
                      MaskImage& foreground) {
+  DropSpecks(certain, foreground);
   const auto reach_px_m = static_cast<float>(settings.reach_m * camera.fy);
   const cv::Rect part = ReachOfLow(depth, certain, foreground, reach_px_m);
   if (part.empty()) return;
@@ -249,14 +281,29 @@ Room LearnRoom(const std::vector<DepthImage>& frames, const std::vector<DepthIma
   constexpr double kMedian = 0.5;
   const BackgroundSettings& b = settings.background;
   if (b.source == BackgroundSource::kRecording && measured.size() > 1)
-    room.background = FarDepths(measured, b.far_share, b.seen_share, camera);
+    room.background = FarDepths(measured, b.far_share, b.seen_share, room, settings.noise_sigmas);
   if (b.source == BackgroundSource::kEmptyFrames)
-    room.background = FarDepths(without_person, kMedian, b.seen_share, camera);
+    room.background = FarDepths(without_person, kMedian, b.seen_share, room, settings.noise_sigmas);
   if (settings.floor.remove) {
     room.floor = FindFloor(without_person.empty() ? measured : without_person, camera,
                            room.noise_at_1m_m, settings);
   }
   return room;
+}
+
+RoomDepth RoomDepthAt(const Room& room, const CutoutSettings& s, int u, int v) {
+  const auto sigmas = static_cast<float>(s.noise_sigmas);
+  const float background = room.background(u, v);
+  if (background > 0.0f && background < kBeyondRange)
+    return {background,
+            std::max(static_cast<float>(s.background.margin_m), sigmas * room.NoiseAt(background))};
+  if (!room.floor) return {kBeyondRange, 0.0f};
+  const float descent = -room.floor->up.dot(
+      room.camera.Unproject(static_cast<float>(u), static_cast<float>(v), 1.0f));
+  if (descent <= 0.0f) return {kBeyondRange, 0.0f};
+  const float floor = room.floor->height_m / descent;
+  return {floor,
+          std::max(static_cast<float>(s.floor.margin_m) / descent, sigmas * room.NoiseAt(floor))};
 }
 
 MaskImage ForegroundOf(const DepthImage& depth, const Room& room, const CutoutSettings& s) {

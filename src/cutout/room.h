@@ -34,6 +34,17 @@ struct Room {
   }
 };
 
+// What lies behind a person at one pixel.
+struct RoomDepth {
+  float depth_m = 0.0f;   // infinite where nothing is known or within range
+  float margin_m = 0.0f;  // a pixel that is nearer by more than this is in front of it
+
+  bool IsInFront(float z) const { return z < depth_m - margin_m; }
+};
+
+// The background, or the floor where there is no background.
+RoomDepth RoomDepthAt(const Room& room, const CutoutSettings& settings, int u, int v);
+
 // Learns the room from evenly spaced frames of the recording. `empty`: frames without a person,
 // used only with BackgroundSource::kEmptyFrames. Frames without any measurement are ignored.
 Room LearnRoom(const std::vector<DepthImage>& frames, const std::vector<DepthImage>& empty,

@@ -237,6 +237,43 @@ void FollowingSettings::Describe(Fields& f) {
        .origin = Origin::kGuessed});
 }
 
+void OutlineSettings::Describe(Fields& f) {
+  f.Integer(
+      "reach_px", reach_px,
+      {.meaning = "distance up to which pixels decide whether a pixel near an outline belongs "
+                  "to the person; 0: each pixel decides for itself",
+       .unit = "px",
+       .min = 0,
+       .max = 10,
+       .origin = Origin::kTuned});
+  f.Number("spread_px", spread_px,
+           {.meaning = "standard deviation of the weights of those pixels over their distance; it "
+                       "should be above that of the sensor's displacement of edges",
+            .unit = "px",
+            .min = 0.1,
+            .max = 10.0,
+            .origin = Origin::kTuned,
+            .source = "Nguyen, Izadi & Lovell 2012: a Kinect v1 displaces edges by 0.8 px"});
+  f.Number("depth_share", depth_share,
+           {.meaning = "share of the way from the room's depth to the person's from which on a "
+                       "pixel counts fully as the person's",
+            .min = 0.01,
+            .max = 1.0,
+            .origin = Origin::kTuned});
+  f.Number("least_sigmas", least_sigmas,
+           {.meaning = "least length of that way, in standard deviations of the sensor's noise",
+            .min = 0.0,
+            .max = 10.0,
+            .origin = Origin::kTuned});
+  f.Number(
+      "doubtful_weight", doubtful_weight,
+      {.meaning = "weight, as background, of a pixel without measurement and of one whose depth "
+                  "is neither the person's nor the room's",
+       .min = 0.0,
+       .max = 1.0,
+       .origin = Origin::kTuned});
+}
+
 void PersonSettings::Describe(Fields& f) {
   f.Choice(
       "choose", choose,
@@ -287,6 +324,7 @@ void CutoutSettings::Describe(Fields& f) {
             {.meaning = "connected components of the foreground in three dimensions"});
   f.Section("person", person, {.meaning = "the person that is kept"});
   f.Section("following", following, {.meaning = "how people are followed from frame to frame"});
+  f.Section("outline", outline, {.meaning = "how outlines of people are smoothed"});
   f.Integer(
       "seed", seed,
       {.meaning = "seed of the random points in the search for the floor", .min = 0, .max = 1e9});

@@ -67,6 +67,17 @@ struct TouchingSettings {
   void Describe(Fields& fields);
 };
 
+// Outlines of people (outline.h).
+struct OutlineSettings {
+  int reach_px = 3;
+  double spread_px = 1.2;
+  double depth_share = 0.4;
+  double least_sigmas = 1.0;
+  double doubtful_weight = 0.5;
+
+  void Describe(Fields& fields);
+};
+
 struct FollowingSettings {
   double same_place_m = 0.3;
   double claim_share = 0.15;
@@ -103,6 +114,7 @@ struct CutoutSettings {
   PieceSettings pieces;
   PersonSettings person;
   FollowingSettings following;
+  OutlineSettings outline;
   int seed = 1;
 
   void Describe(Fields& fields);

@@ -1,11 +1,15 @@
-// 8-bit PNG masks: 0 = not the subject, anything else = the subject.
+// 8-bit PNG masks: 0 = not the subject, anything else = the subject; kForeignDepth = the subject,
+// but the pixel holds the depth of something else.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
 #include "geometry/image.h"
 
 namespace vitruvia {
+
+inline constexpr std::uint8_t kSubject = 255, kForeignDepth = 128;
 
 // DataError if the file is missing, damaged (also when cut short), not 8-bit single-channel, or not
 // of the expected size.

@@ -131,6 +131,20 @@ void RequireRoom(const std::vector<DepthImage>& sample, const DepthImportSetting
       s.unit_m * factor));
 }
 
+// Without a measurement in any of them the room would not be known, and nothing would say so.
+void RequireEmptyRoom(const std::vector<DepthImage>& empty, const DepthImportSettings& s) {
+  if (s.cutout.background.source != BackgroundSource::kEmptyFrames) return;
+  const bool is_measured = std::any_of(empty.begin(), empty.end(), [](const DepthImage& image) {
+    return std::any_of(image.pixels().begin(), image.pixels().end(), [](float z) { return z > 0; });
+  });
+  if (is_measured) return;
+  const fs::path& images = s.empty_frames.images.empty() ? s.images : s.empty_frames.images;
+  throw DataError(fmt::format(
+      "{}: empty_frames: none of {} frames looked at holds a measurement; expected images of the "
+      "room without a person, which cutout.background.source empty_frames learns the room from",
+      images.string(), empty.size()));
+}
+
 SequenceInfo InfoOf(const DepthImportSettings& s, const Frames& frames,
                     const PinholeCamera& camera) {
   SequenceInfo info;
@@ -151,9 +165,14 @@ SequenceInfo InfoOf(const DepthImportSettings& s, const Frames& frames,
 // What was found in a recording, frame by frame.
 struct FollowedRecording {
   std::vector<FollowedPerson> people;
-  std::vector<PackedLabels> labels;  // of people, of each frame
-  int at_pixel = 0;                  // who is at the pixel of the settings
+  std::vector<PackedLabels> labels;             // of people, of each frame
+  std::vector<std::vector<int>> foreign_depth;  // of each frame (outline.h)
+  int at_pixel = 0;                             // who is at the pixel of the settings
   double largest_piece_m2 = 0.0, tallest_piece_m = 0.0;
+
+  OutlinedPeople PeopleIn(std::size_t frame) const {
+    return {Unpacked(labels[frame]), foreign_depth[frame]};
+  }
 };
 
 int PersonAt(const Image<std::uint8_t>& people, const PersonSettings& pixel) {
@@ -180,7 +199,17 @@ class RecordingFollower {
       depths[i] = reader_.Read(files[i]);
       pieces[i] = PiecesOf(depths[i], room_, settings_);
     });
-    for (std::size_t i = 0; i < files.size(); ++i) Add(depths[i], pieces[i]);
+    std::vector<Image<std::uint8_t>> people(files.size());
+    for (std::size_t i = 0; i < files.size(); ++i) people[i] = Add(depths[i], pieces[i]);
+    const std::size_t first = found_.labels.size();
+    found_.labels.resize(first + files.size());
+    found_.foreign_depth.resize(first + files.size());
+    team_.For(static_cast<int>(files.size()), 1, [&](int begin, int) {
+      const auto i = static_cast<std::size_t>(begin);
+      OutlinedPeople outlined = SmoothOutlines(depths[i], pieces[i], room_, settings_, people[i]);
+      found_.labels[first + i] = Pack(outlined.people);
+      found_.foreign_depth[first + i] = std::move(outlined.foreign_depth);
+    });
     return depths;
   }
 
@@ -190,15 +219,16 @@ class RecordingFollower {
   }
 
  private:
-  void Add(const DepthImage& depth, const Pieces& pieces) {
-    const Image<std::uint8_t> people = people_.Follow(depth, pieces);
-    if (static_cast<int>(found_.labels.size()) == settings_.person.frame)
-      found_.at_pixel = PersonAt(people, settings_.person);
-    found_.labels.push_back(Pack(people));
-    if (pieces.pieces.empty()) return;
-    const Piece& largest = pieces.pieces.front();
-    found_.largest_piece_m2 = std::max(found_.largest_piece_m2, largest.area_m2);
-    found_.tallest_piece_m = std::max(found_.tallest_piece_m, double{largest.height_m()});
+  // Follows the people into the next frame; returns the number of the person at each pixel.
+  Image<std::uint8_t> Add(const DepthImage& depth, const Pieces& pieces) {
+    Image<std::uint8_t> people = people_.Follow(depth, pieces);
+    if (frames_++ == settings_.person.frame) found_.at_pixel = PersonAt(people, settings_.person);
+    if (!pieces.pieces.empty()) {
+      const Piece& largest = pieces.pieces.front();
+      found_.largest_piece_m2 = std::max(found_.largest_piece_m2, largest.area_m2);
+      found_.tallest_piece_m = std::max(found_.tallest_piece_m, double{largest.height_m()});
+    }
+    return people;
   }
 
   const FrameReader& reader_;
@@ -206,6 +236,7 @@ class RecordingFollower {
   const CutoutSettings& settings_;
   WorkerTeam& team_;
   PeopleFollower people_;
+  int frames_ = 0;
   FollowedRecording found_;
 };
 
@@ -218,6 +249,20 @@ FollowedRecording FollowAndWrite(std::span<const fs::path> files, RecordingFollo
     progress.Advance(static_cast<int>(batch.size()));
   }
   return follower.Result();
+}
+
+// The likely reason why no piece has a person's size.
+std::string WhyNobody(const FollowedRecording& found, const DepthImportSettings& s) {
+  if (found.tallest_piece_m > s.cutout.person.size.most_height_m) {
+    return fmt::format(
+        "Are the focal lengths those of the images (camera: fx {:g}, fy {:g}), and does the "
+        "background hold the room (cutout.background), so that the person is not one with it?",
+        s.camera.fx, s.camera.fy);
+  }
+  return fmt::format(
+      "Does the person stand still all the time, so that they count as background "
+      "(cutout.background), or beyond far_m ({:g} m)?",
+      s.cutout.far_m);
 }
 
 ChosenPerson RequirePerson(const FollowedRecording& found, const DepthImportSettings& s) {
@@ -233,11 +278,10 @@ ChosenPerson RequirePerson(const FollowedRecording& found, const DepthImportSett
   throw DataError(fmt::format(
       "{}: no person is found in any of {} frames: in front of the room the largest piece has "
       "{:.2g} m², the largest pieces are up to {:.2g} m high; expected at least {:g} m² and {:g} "
-      "to {:g} m (cutout.person.size). Does the person stand still all the time, so that they "
-      "count as background (cutout.background), or beyond far_m ({:g} m)?",
+      "to {:g} m (cutout.person.size). {}",
       where, found.labels.size(), found.largest_piece_m2, found.tallest_piece_m,
       person.size.least_area_m2, person.size.least_height_m, person.size.most_height_m,
-      s.cutout.far_m));
+      WhyNobody(found, s)));
 }
 
 // Writes all masks; returns each one's share of the image.
@@ -246,9 +290,9 @@ std::vector<double> WriteMasks(const FollowedRecording& found, const ChosenPerso
   std::vector<double> shares(found.labels.size());
   team.For(static_cast<int>(shares.size()), 1, [&](int begin, int) {
     const auto i = static_cast<std::size_t>(begin);
-    const MaskImage mask = MaskOf(Unpacked(found.labels[i]), chosen);
-    const auto kept = std::count(mask.pixels().begin(), mask.pixels().end(), 255);
-    shares[i] = static_cast<double>(kept) / static_cast<double>(mask.pixels().size());
+    const MaskImage mask = MaskOf(found.PeopleIn(i), chosen);
+    const auto out = std::count(mask.pixels().begin(), mask.pixels().end(), 0);
+    shares[i] = 1.0 - static_cast<double>(out) / static_cast<double>(mask.pixels().size());
     writer.WriteMask(begin, mask);
   });
   return shares;
@@ -315,6 +359,7 @@ DepthImport ImportDepthSequence(const DepthImportSettings& s, int threads, const
   const std::vector<DepthImage> sample = reader.ReadSample(frames.files, samples);
   RequireRoom(sample, s);
   const std::vector<DepthImage> empty = reader.ReadSample(FilesWithoutPerson(s), samples);
+  RequireEmptyRoom(empty, s);
 
   DepthImport result;
   result.camera = reader.camera();

@@ -94,7 +94,7 @@ class SequenceReader {
   const BodyModel& subject() const;
   DepthImage ReadDepth(int frame) const;  // mask applied where there is one
   bool has_masks() const { return has_masks_; }
-  MaskImage ReadMask(int frame) const;            // only where there are masks
+  MaskImage ReadMask(int frame) const;            // only where there are masks; mask_png.h
   DepthImage ReadDepthWithRoom(int frame) const;  // no mask applied
   // Only where info() says that there are true joints or a true surface.
   const JointTruth& true_joints(int frame) const;

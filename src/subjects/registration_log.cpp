@@ -79,12 +79,13 @@ RegistrationLog::RegistrationLog(fs::path file, std::string key)
       content += line + '\n';
     }
   }
-  WriteWholeFile(file_, content);
+  if (!registrations_.empty()) WriteWholeFile(file_, content);
 }
 
 void RegistrationLog::Append(const Registration& registration) {
   registrations_.push_back(registration);
   if (file_.empty()) return;
+  if (registrations_.size() == 1) WriteWholeFile(file_, key_ + '\n');
   std::ofstream stream(file_, std::ios::app);
   stream << Written(registration).dump() << std::endl;
   if (!stream) throw RunError(fmt::format("{}: cannot be written", file_.string()));

@@ -214,11 +214,13 @@ void StandOnFloor(BodyModel& body, std::vector<BoneTransforms>& frame_from_subje
 }
 
 void RequireOneClosedSurface(const std::vector<TriangleMesh>& frames) {
-  constexpr const char* kElsewise = "; surface \"model\" takes meshes of any kind";
+  constexpr const char* kElsewise = "; the setting \"surface\": \"model\" takes meshes of any kind";
   const MeshReport report = InspectMesh(frames.front());
   if (!report.problem.empty()) {
-    throw DataError(fmt::format("rig: frame 0: expected one closed surface, but {}{}",
-                                report.problem, kElsewise));
+    throw DataError(
+        fmt::format("rig: frame 0: a subject of the meshes needs one closed surface of one whole "
+                    "person: {}{}",
+                    report.problem, kElsewise));
   }
   for (std::size_t f = 1; f < frames.size(); ++f) {
     if (frames[f].triangles == frames.front().triangles &&

@@ -59,6 +59,23 @@ TEST(LearnRoom, MeasuresTheNoiseOfTheSensor) {
   EXPECT_NEAR(LearnRoom(frames, {}, RoomCamera(), CutoutSettings()).noise_at_1m_m, 0.002, 0.0001);
 }
 
+// A sensor that measures in steps of 5 cm, with noise of 2 cm.
+TEST(LearnRoom, LearnsTheBackgroundToAFractionOfTheSensorsStep) {
+  RandomStream random(5, "test");
+  const RoomView view{.wall_m = 3.16};
+  std::vector<DepthImage> empty;
+  for (int i = 0; i < 40; ++i) {
+    empty.push_back(Noisy(view.Rendered(), 0.002, random));
+    for (float& z : empty.back().pixels()) z = 0.05f * std::round(z / 0.05f);
+  }
+  CutoutSettings settings;
+  settings.background.source = BackgroundSource::kEmptyFrames;
+  const Room room = LearnRoom(empty, empty, RoomCamera(), settings);
+  double sum = 0.0;
+  for (const float z : room.background.pixels()) sum += std::abs(z - 3.16);
+  EXPECT_LT(sum / static_cast<double>(room.background.pixels().size()), 0.005);
+}
+
 TEST(LearnRoom, ResultDoesNotDependOnAnythingButItsInput) {
   const RoomView view{.wall_m = 4.0, .camera_height_m = 1.2, .pitch = 0.2};
   const auto height = [&] {

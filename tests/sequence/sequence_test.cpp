@@ -126,11 +126,13 @@ TEST_F(Sequence, HidesWhatTheMaskCallsBackground) {
   MaskImage mask(16, 12, 255);
   mask(5, 7) = 0;
   mask(6, 7) = 1;
+  mask(7, 7) = kForeignDepth;  // inside of the outline, with the depth of the background
   for (int i = 0; i < kFrames; ++i) {
     WriteMaskPng(folder_ / fmt::format("mask/00000{}.png", i), mask);
   }
   const DepthImage depth = SequenceReader(folder_).ReadDepth(1);
   EXPECT_EQ(depth(5, 7), 0.0f);
+  EXPECT_EQ(depth(7, 7), 0.0f);
   EXPECT_NEAR(depth(6, 7), SmallDepth(1)(6, 7), 1e-6);
   EXPECT_NEAR(depth(4, 7), SmallDepth(1)(4, 7), 1e-6);
 

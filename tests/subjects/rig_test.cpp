@@ -109,6 +109,20 @@ TEST(Rig, GoesOnWhereItWasInterrupted) {
   EXPECT_TRUE(RegistrationLog(folder / "log", "another key").registrations().empty());
 }
 
+TEST(Rig, LeavesNothingWhereTheFirstMeshIsRefused) {
+  const TemporaryFolder folder;
+  std::vector<TriangleMesh> frames = Moving(1);
+  frames[0].triangles.resize(frames[0].triangles.size() - 500);  // a hole
+  const RigSettings settings = QuickSettings();
+  Registrar registrar(SmallSpace(), {}, settings.registration);
+  RegistrationLog log(folder / "log", "key");
+  EXPECT_THAT([&] { RigMeshes(frames, registrar, settings, log); },
+              testing::ThrowsMessage<DataError>(
+                  testing::AllOf(HasSubstr("frame 0"), HasSubstr("one closed surface"),
+                                 HasSubstr("\"surface\": \"model\""))));
+  EXPECT_FALSE(std::filesystem::exists(folder / "log"));
+}
+
 TEST(Rig, MeshesOfAnyKindTakeTheModelsSurface) {
   std::vector<TriangleMesh> frames = Moving(2);
   frames[1].triangles.resize(frames[1].triangles.size() - 500);  // a hole
