@@ -1,7 +1,10 @@
 #include "tracking/classification.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+
+#include "math/lanes.h"
 
 namespace vitruvia {
 
@@ -24,23 +27,41 @@ bool IsExplained(const DepthImage& depth, Pixel at, float z, const NearnessSetti
 void ClassifyVertices(const std::vector<Vector3f>& vertices, const std::vector<int>& visible,
                       const DepthImage& captured, const PinholeCamera& camera,
                       const NearnessSettings& nearness, VertexClasses& classes) {
-  classes.near_surface.clear();
-  classes.observed_depth.clear();
+  const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
+  const auto cx = static_cast<float>(camera.cx), cy = static_cast<float>(camera.cy);
+  classes.near_surface.resize(visible.size() + kLanes);  // Compress writes further ones behind
+  classes.observed_depth.resize(visible.size() + kLanes);
   classes.elsewhere.clear();
-  for (const int i : visible) {
-    const Vector3f& vertex = vertices[i];
-    const auto pixel = camera.Project(vertex);
-    const float z = SampleDepth(captured, pixel.x(), pixel.y(), nearness.smooth_m);
-    if (z > 0.0f && std::abs(vertex.z() - z) < nearness.depth_m) {
-      classes.near_surface.push_back(i);
-      classes.observed_depth.push_back(z);
-    } else if (nearness.behind == BehindSurface::kHidden && z > 0.0f && vertex.z() > z) {
-      continue;
-    } else if (const auto at = camera.PixelAt<float>(pixel);
-               !at || !IsExplained(captured, *at, vertex.z(), nearness)) {
-      classes.elsewhere.push_back(i);
+  std::size_t near_count = 0;
+  const auto classify = [&](const IntLanes& indices, const IntLanes& is_vertex) {
+    const PointLanes p = GatherPoints(vertices.front().data(), indices);
+    const FloatLanes inverse_z = 1.0f / p.z;
+    const FloatLanes u = fx * p.x * inverse_z + cx, v = fy * p.y * inverse_z + cy;
+    const FloatLanes z = SampleDepth(captured, u, v, nearness.smooth_m);
+    const IntLanes is_near = is_vertex & (z > 0.0f) & (Abs(p.z - z) < nearness.depth_m);
+    Compress(z, is_near, &classes.observed_depth[near_count]);
+    near_count += Compress(indices, is_near, &classes.near_surface[near_count]);
+    IntLanes is_open = is_vertex & ~is_near;
+    if (nearness.behind == BehindSurface::kHidden) is_open &= ~((z > 0.0f) & (p.z > z));
+    for (unsigned left = Bits(is_open); left != 0; left &= left - 1) {
+      const int lane = std::countr_zero(left);
+      const auto at = camera.PixelAt<float>({u[lane], v[lane]});
+      if (!at || !IsExplained(captured, *at, p.z[lane], nearness)) {
+        classes.elsewhere.push_back(indices[lane]);
+      }
     }
+  };
+  std::size_t i = 0;
+  for (; i + kLanes <= visible.size(); i += kLanes) {
+    classify(LoadLanes<IntLanes>(visible, static_cast<int>(i)), ~IntLanes{});
   }
+  if (i < visible.size()) {
+    IntLanes rest{};
+    for (std::size_t lane = 0; i + lane < visible.size(); ++lane) rest[lane] = visible[i + lane];
+    classify(rest, CountFrom(static_cast<int>(i)) < static_cast<int>(visible.size()));
+  }
+  classes.near_surface.resize(near_count);
+  classes.observed_depth.resize(near_count);
 }
 
 void AverageObservedDepth(const std::vector<Vector3f>& vertices, const DepthImage& captured,
