@@ -101,8 +101,16 @@ void BlockNormalEquations::AddRows(std::span<const int> blocks, const RowSums& s
 
 void BlockNormalEquations::AddDamping(double value) { hessian_.diagonal().array() += value; }
 
+// Block after block, since the columns of the whole matrix do not fit the nearest cache.
 void BlockNormalEquations::Symmetrize() {
-  hessian_.triangularView<Eigen::StrictlyLower>() = hessian_.transpose();
+  for (int a = 0; a < hessian_.cols(); a += kBlockSize) {
+    auto diagonal = hessian_.block<kBlockSize, kBlockSize>(a, a);
+    diagonal.triangularView<Eigen::StrictlyLower>() = diagonal.transpose();
+    for (int b = a + kBlockSize; b < hessian_.cols(); b += kBlockSize) {
+      hessian_.block<kBlockSize, kBlockSize>(b, a) =
+          hessian_.block<kBlockSize, kBlockSize>(a, b).transpose();
+    }
+  }
 }
 
 }  // namespace vitruvia

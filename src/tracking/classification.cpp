@@ -10,13 +10,16 @@ namespace vitruvia {
 
 namespace {
 
+bool IsNear(float there, float z, const NearnessSettings& nearness) {
+  return there > 0.0f && std::abs(there - z) < nearness.depth_m;
+}
+
 // Whether some pixel within edge_px of `at` holds a depth near z.
 bool IsExplained(const DepthImage& depth, Pixel at, float z, const NearnessSettings& nearness) {
   for (int y = at.v - nearness.edge_px; y <= at.v + nearness.edge_px; ++y) {
     for (int x = at.u - nearness.edge_px; x <= at.u + nearness.edge_px; ++x) {
       if (!depth.Contains(x, y)) continue;
-      const float there = depth(x, y);
-      if (there > 0.0f && std::abs(there - z) < nearness.depth_m) return true;
+      if (IsNear(depth(x, y), z, nearness)) return true;
     }
   }
   return false;
@@ -92,6 +95,8 @@ void FindUnexplainedPoints(const PointCloud& cloud, const DepthImage& rendered,
                            const NearnessSettings& nearness, std::vector<int>& unexplained) {
   unexplained.clear();
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    // Most points' own pixel explains them.
+    if (IsNear(rendered.pixels()[cloud.pixels[i]], cloud.points[i].z(), nearness)) continue;
     const int u = cloud.pixels[i] % rendered.width(), v = cloud.pixels[i] / rendered.width();
     if (!IsExplained(rendered, {u, v}, cloud.points[i].z(), nearness))
       unexplained.push_back(static_cast<int>(i));
