@@ -237,7 +237,9 @@ TEST(Classification, OfManyVerticesIsThatOfEach) {
         const float z = SampleDepth(captured, pixel.x(), pixel.y(), nearness.smooth_m);
         const bool is_near = z > 0.0f && std::abs(vertices.back().z() - z) < nearness.depth_m;
         ASSERT_EQ(single.near_surface.size(), is_near ? 1u : 0u);
-        if (is_near) ASSERT_EQ(single.observed_depth.front(), z);
+        if (is_near) {
+          ASSERT_EQ(single.observed_depth.front(), z);
+        }
       }
       ClassifyVertices(vertices, visible, captured, camera, nearness, classes);
       ASSERT_EQ(classes.near_surface, expected.near_surface);
