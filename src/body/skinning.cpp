@@ -17,6 +17,7 @@
 namespace vitruvia {
 namespace {
 
+constexpr std::size_t kMostBones = 256;       // that SkinWeights can name
 constexpr float kWeightSumTolerance = 1e-4f;  // four weights as files with five digits hold them
 
 // A bone's motion, or a blend of several: the columns of [R | t], each filled up to four numbers,
@@ -24,6 +25,7 @@ constexpr float kWeightSumTolerance = 1e-4f;  // four weights as files with five
 struct MotionLanes {
   FloatLanes xy, zt;
 
+  MotionLanes() = default;  // without numbers
   explicit MotionLanes(const Rigidd& motion) {
     Eigen::Matrix4f columns = Eigen::Matrix4f::Zero();
     columns.topLeftCorner<3, 3>() = motion.rotation.cast<float>();
@@ -138,7 +140,9 @@ void SkinLinear(const std::vector<Vector3f>& rest_vertices, const SkinWeights& w
                 const BoneTransforms& posed_from_rest, std::vector<Vector3f>& posed) {
   CheckSizes(rest_vertices.size(), weights, "SkinLinear");
   CheckBones(weights, posed_from_rest.size(), "SkinLinear");
-  const std::vector<MotionLanes> bones(posed_from_rest.begin(), posed_from_rest.end());
+  std::array<MotionLanes, kMostBones> bones;  // without allocation; those that there are
+  const std::size_t bone_count = std::min(posed_from_rest.size(), kMostBones);
+  for (std::size_t b = 0; b < bone_count; ++b) bones[b] = MotionLanes(posed_from_rest[b]);
   posed.resize(rest_vertices.size());
   for (std::size_t v = 0; v < rest_vertices.size(); ++v) {
     MotionLanes blend = weights.weights[v][0] * bones[weights.bones[v][0]];

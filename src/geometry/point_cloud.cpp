@@ -45,4 +45,37 @@ float SampleDepth(const DepthImage& depth, float u, float v, float smooth_within
   return z > 0.0f ? z : 0.0f;
 }
 
+FloatLanes SampleDepth(const DepthImage& depth, const FloatLanes& u, const FloatLanes& v,
+                       float smooth_within_m) {
+  const float* pixels = depth.pixels().data();
+  const int width = depth.width();
+  const auto last_u = static_cast<float>(width - 1),
+             last_v = static_cast<float>(depth.height() - 1);
+  constexpr FloatLanes kZero{};
+  const IntLanes is_in_view =
+      (u >= -0.5f) & (v >= -0.5f) & (u < last_u + 0.5f) & (v < last_v + 0.5f);
+  const auto depth_at = [&](const IntLanes& where, const IntLanes& pixel) {
+    return where ? Gather(pixels, where ? pixel : IntLanes{}) : kZero;
+  };
+
+  const FloatLanes left = Floor(is_in_view ? u : kZero), top = Floor(is_in_view ? v : kZero);
+  const IntLanes is_inside =
+      is_in_view & (left >= 0.0f) & (top >= 0.0f) & (left < last_u) & (top < last_v);
+  const IntLanes first = Truncate(top) * width + Truncate(left);
+  const FloatLanes z00 = depth_at(is_inside, first), z10 = depth_at(is_inside, first + 1);
+  const FloatLanes z01 = depth_at(is_inside, first + width);
+  const FloatLanes z11 = depth_at(is_inside, first + width + 1);
+  const IntLanes is_measured = (z00 > 0.0f) & (z10 > 0.0f) & (z01 > 0.0f) & (z11 > 0.0f);
+  const FloatLanes low = Min(Min(z00, z10), Min(z01, z11));
+  const FloatLanes high = Max(Max(z00, z10), Max(z01, z11));
+  const FloatLanes x = u - left, y = v - top;
+  const FloatLanes between =
+      (1.0f - y) * ((1.0f - x) * z00 + x * z10) + y * ((1.0f - x) * z01 + x * z11);
+
+  const FloatLanes column = is_in_view ? u + 0.5f : kZero, row = is_in_view ? v + 0.5f : kZero;
+  const FloatLanes nearest = depth_at(is_in_view, Truncate(row) * width + Truncate(column));
+  return is_measured & (high - low <= smooth_within_m) ? between
+                                                       : (nearest > 0.0f ? nearest : kZero);
+}
+
 }  // namespace vitruvia

@@ -6,6 +6,7 @@
 #include "geometry/camera.h"
 #include "geometry/image.h"
 #include "geometry/mesh.h"
+#include "math/lanes.h"
 
 namespace vitruvia {
 
@@ -21,5 +22,8 @@ void CloudFromDepth(const DepthImage& depth, const PinholeCamera& camera, int st
 // Depth at (u, v): bilinear where the four neighbours are measured and lie within
 // `smooth_within_m` of each other, the nearest pixel's elsewhere. 0: no measurement there.
 float SampleDepth(const DepthImage& depth, float u, float v, float smooth_within_m);
+// The same at eight positions.
+FloatLanes SampleDepth(const DepthImage& depth, const FloatLanes& u, const FloatLanes& v,
+                       float smooth_within_m);
 
 }  // namespace vitruvia

@@ -1,8 +1,10 @@
-// SIMD vectors of eight numbers (and of four), by the vector extension of GCC and Clang, whose
-// operators work lane by lane. A comparison gives 0 or −1 in each lane, and `mask ? a : b` selects
-// lane by lane; Eigen 3.4 does not vectorise such a selection.
+// SIMD vectors of eight numbers (and of four and two), by the vector extension of GCC and Clang,
+// whose operators work lane by lane. A comparison gives 0 or −1 in each lane, and `mask ? a : b`
+// selects lane by lane; Eigen 3.4 does not vectorise such a selection.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <vector>
@@ -21,6 +23,8 @@ inline constexpr int kLanes = 8;
 using FloatLanes = float __attribute__((vector_size(sizeof(float) * kLanes)));
 using DoubleLanes = double __attribute__((vector_size(sizeof(double) * kLanes)));
 using FloatQuad = float __attribute__((vector_size(sizeof(float) * 4)));
+using DoublePair = double __attribute__((vector_size(sizeof(double) * 2)));
+using DoubleQuad = double __attribute__((vector_size(sizeof(double) * 4)));
 using IntLanes = std::int32_t __attribute__((vector_size(sizeof(std::int32_t) * kLanes)));
 
 // The lanes of a kind of number that a template takes.
@@ -39,16 +43,25 @@ using Lanes = typename LanesOf<Scalar>::Type;
 
 inline FloatLanes Min(FloatLanes a, FloatLanes b) { return a < b ? a : b; }
 inline FloatLanes Max(FloatLanes a, FloatLanes b) { return a > b ? a : b; }
+inline FloatLanes Abs(FloatLanes x) { return Max(x, -x); }
 
 // The next three functions need numbers that fit an int.
 inline IntLanes Truncate(FloatLanes x) { return __builtin_convertvector(x, IntLanes); }
 inline FloatLanes Floor(FloatLanes x) {
+#ifdef __AVX__
+  return _mm256_floor_ps(x);
+#else
   const FloatLanes truncated = __builtin_convertvector(Truncate(x), FloatLanes);
   return truncated > x ? truncated - 1.0f : truncated;
+#endif
 }
 inline FloatLanes Ceil(FloatLanes x) {
+#ifdef __AVX__
+  return _mm256_ceil_ps(x);
+#else
   const FloatLanes truncated = __builtin_convertvector(Truncate(x), FloatLanes);
   return truncated < x ? truncated + 1.0f : truncated;
+#endif
 }
 
 // One bit for each lane in which the mask is set, lane 0 the lowest.
@@ -61,6 +74,47 @@ inline unsigned Bits(IntLanes mask) {
   return bits;
 #endif
 }
+
+// The lanes of each possible result of Bits that are set, ascending.
+inline constexpr auto kLanesOfBits = [] {
+  std::array<std::array<std::uint8_t, kLanes>, 1 << kLanes> lanes_of_bits{};
+  for (unsigned bits = 0; bits < lanes_of_bits.size(); ++bits) {
+    std::size_t count = 0;
+    for (std::uint8_t lane = 0; lane < kLanes; ++lane) {
+      if ((bits >> lane & 1u) != 0) lanes_of_bits[bits][count++] = lane;
+    }
+  }
+  return lanes_of_bits;
+}();
+
+// The numbers at these indices.
+inline FloatLanes Gather(const float* numbers, IntLanes indices) {
+  return FloatLanes{numbers[indices[0]], numbers[indices[1]], numbers[indices[2]],
+                    numbers[indices[3]], numbers[indices[4]], numbers[indices[5]],
+                    numbers[indices[6]], numbers[indices[7]]};
+}
+
+// Writes the lanes in which the mask is set one after the other, and further ones behind them: `to`
+// needs room for eight. Returns how many are set. Without branches, to avoid mispredictions.
+template <class Number>
+std::size_t Compress(const Number& numbers, IntLanes mask, void* to) {
+  const unsigned bits = Bits(mask);
+  const std::array<std::uint8_t, kLanes>& lanes = kLanesOfBits[bits];
+#ifdef __AVX2__
+  std::int64_t packed;
+  std::memcpy(&packed, lanes.data(), sizeof packed);
+  const __m256i order = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(packed));
+  const auto compressed = _mm256_permutevar8x32_epi32(reinterpret_cast<__m256i>(numbers), order);
+#else
+  Number compressed{};
+  for (int lane = 0; lane < kLanes; ++lane) compressed[lane] = numbers[lanes[lane]];
+#endif
+  std::memcpy(to, &compressed, sizeof compressed);
+  return static_cast<std::size_t>(std::popcount(bits));
+}
+
+// first, first + 1, … first + 7.
+inline IntLanes CountFrom(int first) { return IntLanes{0, 1, 2, 3, 4, 5, 6, 7} + first; }
 
 template <class Number>
 auto SmallestLane(const Number& v) {
@@ -116,6 +170,12 @@ inline PointLanes LoadPoints(const float* xyz) {
   return {__builtin_shufflevector(x, c, 0, 1, 2, 3, 4, 5, 10, 13),
           __builtin_shufflevector(y, c, 0, 1, 2, 3, 4, 8, 11, 14),
           __builtin_shufflevector(z, c, 0, 1, 2, 3, 4, 9, 12, 15)};
+}
+
+// Of the points at these indices.
+inline PointLanes GatherPoints(const float* xyz, const IntLanes& indices) {
+  const IntLanes first = 3 * indices;
+  return {Gather(xyz, first), Gather(xyz + 1, first), Gather(xyz + 2, first)};
 }
 
 }  // namespace vitruvia

@@ -1,19 +1,25 @@
 #include "tracking/classification.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+
+#include "math/lanes.h"
 
 namespace vitruvia {
 
 namespace {
+
+bool IsNear(float there, float z, const NearnessSettings& nearness) {
+  return there > 0.0f && std::abs(there - z) < nearness.depth_m;
+}
 
 // Whether some pixel within edge_px of `at` holds a depth near z.
 bool IsExplained(const DepthImage& depth, Pixel at, float z, const NearnessSettings& nearness) {
   for (int y = at.v - nearness.edge_px; y <= at.v + nearness.edge_px; ++y) {
     for (int x = at.u - nearness.edge_px; x <= at.u + nearness.edge_px; ++x) {
       if (!depth.Contains(x, y)) continue;
-      const float there = depth(x, y);
-      if (there > 0.0f && std::abs(there - z) < nearness.depth_m) return true;
+      if (IsNear(depth(x, y), z, nearness)) return true;
     }
   }
   return false;
@@ -21,36 +27,45 @@ bool IsExplained(const DepthImage& depth, Pixel at, float z, const NearnessSetti
 
 }  // namespace
 
-void VertexClasses::Clear() {
-  near_surface.clear();
-  observed_depth.clear();
-  weight.clear();
-  elsewhere.clear();
-}
-
-void VertexClasses::AddNearSurface(int vertex, float depth_m) {
-  near_surface.push_back(vertex);
-  observed_depth.push_back(depth_m);
-  weight.push_back(1.0f);
-}
-
 void ClassifyVertices(const std::vector<Vector3f>& vertices, const std::vector<int>& visible,
                       const DepthImage& captured, const PinholeCamera& camera,
                       const NearnessSettings& nearness, VertexClasses& classes) {
-  classes.Clear();
-  for (const int i : visible) {
-    const Vector3f& vertex = vertices[i];
-    const auto pixel = camera.Project(vertex);
-    const float z = SampleDepth(captured, pixel.x(), pixel.y(), nearness.smooth_m);
-    if (z > 0.0f && std::abs(vertex.z() - z) < nearness.depth_m) {
-      classes.AddNearSurface(i, z);
-    } else if (nearness.behind == BehindSurface::kHidden && z > 0.0f && vertex.z() > z) {
-      continue;
-    } else if (const auto at = camera.PixelAt<float>(pixel);
-               !at || !IsExplained(captured, *at, vertex.z(), nearness)) {
-      classes.elsewhere.push_back(i);
+  const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
+  const auto cx = static_cast<float>(camera.cx), cy = static_cast<float>(camera.cy);
+  classes.near_surface.resize(visible.size() + kLanes);  // Compress writes further ones behind
+  classes.observed_depth.resize(visible.size() + kLanes);
+  classes.elsewhere.clear();
+  std::size_t near_count = 0;
+  const auto classify = [&](const IntLanes& indices, const IntLanes& is_vertex) {
+    const PointLanes p = GatherPoints(vertices.front().data(), indices);
+    const FloatLanes inverse_z = 1.0f / p.z;
+    const FloatLanes u = fx * p.x * inverse_z + cx, v = fy * p.y * inverse_z + cy;
+    const FloatLanes z = SampleDepth(captured, u, v, nearness.smooth_m);
+    const IntLanes is_near = is_vertex & (z > 0.0f) & (Abs(p.z - z) < nearness.depth_m);
+    Compress(z, is_near, &classes.observed_depth[near_count]);
+    near_count += Compress(indices, is_near, &classes.near_surface[near_count]);
+    IntLanes is_open = is_vertex & ~is_near;
+    if (nearness.behind == BehindSurface::kHidden) is_open &= ~((z > 0.0f) & (p.z > z));
+    for (unsigned left = Bits(is_open); left != 0; left &= left - 1) {
+      const int lane = std::countr_zero(left);
+      const auto at = camera.PixelAt<float>({u[lane], v[lane]});
+      if (!at || !IsExplained(captured, *at, p.z[lane], nearness)) {
+        classes.elsewhere.push_back(indices[lane]);
+      }
     }
+  };
+  std::size_t i = 0;
+  for (; i + kLanes <= visible.size(); i += kLanes) {
+    classify(LoadLanes<IntLanes>(visible, static_cast<int>(i)), ~IntLanes{});
   }
+  if (i < visible.size()) {
+    IntLanes rest{};
+    for (std::size_t lane = 0; i + lane < visible.size(); ++lane) rest[lane] = visible[i + lane];
+    classify(rest, CountFrom(static_cast<int>(i)) < static_cast<int>(visible.size()));
+  }
+  classes.near_surface.resize(near_count);
+  classes.observed_depth.resize(near_count);
+  classes.weight.assign(near_count, 1.0f);
 }
 
 void AverageObservedDepth(const std::vector<Vector3f>& vertices, const DepthImage& captured,
@@ -98,6 +113,8 @@ void FindUnexplainedPoints(const PointCloud& cloud, const DepthImage& rendered,
                            const NearnessSettings& nearness, std::vector<int>& unexplained) {
   unexplained.clear();
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    // Most points' own pixel explains them.
+    if (IsNear(rendered.pixels()[cloud.pixels[i]], cloud.points[i].z(), nearness)) continue;
     const int u = cloud.pixels[i] % rendered.width(), v = cloud.pixels[i] / rendered.width();
     if (!IsExplained(rendered, {u, v}, cloud.points[i].z(), nearness))
       unexplained.push_back(static_cast<int>(i));

@@ -33,9 +33,6 @@ struct VertexClasses {
   std::vector<float> observed_depth;  // V1: the captured depth at each one's pixel, metres
   std::vector<float> weight;          // V1: of each one's observation; 1 unless pixels are shared
   std::vector<int> elsewhere;         // V2: vertex indices
-
-  void Clear();
-  void AddNearSurface(int vertex, float depth_m);
 };
 void ClassifyVertices(const std::vector<Vector3f>& vertices, const std::vector<int>& visible,
                       const DepthImage& captured, const PinholeCamera& camera,

@@ -12,6 +12,9 @@ struct DepthNoise {
   double axial_base_m = 0.0, axial_growth_per_m = 0.0, axial_near_m = 0.0;
   double lateral_rad = 0.0;
 
+  bool IsZero() const {
+    return axial_base_m == 0.0 && axial_growth_per_m == 0.0 && lateral_rad == 0.0;
+  }
   double AxialDeviation_m(double depth_m) const {
     const double beyond_m = depth_m - axial_near_m;
     return axial_base_m + axial_growth_per_m * beyond_m * beyond_m;

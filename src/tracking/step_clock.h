@@ -23,6 +23,7 @@ class StepTimes {
   // In the order of the enum.
   std::vector<NamedValue> Named() const {
     std::vector<NamedValue> values;
+    values.reserve(kCount);
     for (std::size_t k = 0; k < kCount; ++k) {
       values.push_back({Name(static_cast<Step>(k)), ms_[k]});
     }

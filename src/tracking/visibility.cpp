@@ -1,6 +1,5 @@
 #include "tracking/visibility.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "math/lanes.h"
@@ -29,24 +28,24 @@ IntLanes PixelsOf(const PinholeCamera& camera, const PointLanes& points) {
 void FindVisibleVertices(const std::vector<Vector3f>& vertices_in_camera,
                          const DepthImage& rendered, const PinholeCamera& camera, float tolerance_m,
                          std::vector<int>& visible) {
-  visible.resize(vertices_in_camera.size());
-  std::size_t count = 0;
-  // Branch-free, to avoid mispredictions: a vertex that is not visible is overwritten by the next.
-  const auto look = [&](std::size_t vertex, int pixel, float z) {
-    const float there = rendered.pixels()[std::max(pixel, 0)];
-    visible[count] = static_cast<int>(vertex);
-    const bool is_visible = (pixel >= 0) & (there > 0.0f) & (std::abs(z - there) < tolerance_m);
-    count += is_visible ? 1 : 0;
-  };
-  std::size_t i = 0;
+  visible.resize(vertices_in_camera.size() + kLanes);  // Compress writes further ones behind
+  const float* depths = rendered.pixels().data();
+  std::size_t count = 0, i = 0;
   for (; i + kLanes <= vertices_in_camera.size(); i += kLanes) {
     const PointLanes points = LoadPoints(vertices_in_camera[i].data());
     const IntLanes pixels = PixelsOf(camera, points);
-    for (std::size_t lane = 0; lane < kLanes; ++lane) look(i + lane, pixels[lane], points.z[lane]);
+    const FloatLanes there = Gather(depths, pixels < 0 ? IntLanes{} : pixels);
+    const IntLanes is_visible =
+        (pixels >= 0) & (there > 0.0f) & (Abs(points.z - there) < tolerance_m);
+    count += Compress(CountFrom(static_cast<int>(i)), is_visible, &visible[count]);
   }
   for (; i < vertices_in_camera.size(); ++i) {
-    const auto pixel = camera.PixelOf(vertices_in_camera[i]);
-    look(i, pixel ? pixel->v * camera.width + pixel->u : -1, vertices_in_camera[i].z());
+    const Vector3f& vertex = vertices_in_camera[i];
+    const auto pixel = camera.PixelOf(vertex);
+    const float there = pixel ? rendered(pixel->u, pixel->v) : 0.0f;
+    if (there > 0.0f && std::abs(vertex.z() - there) < tolerance_m) {
+      visible[count++] = static_cast<int>(i);
+    }
   }
   visible.resize(count);
 }

@@ -30,6 +30,33 @@ TEST(Lanes, GiveMasksExtremesAndLoads) {
   for (int lane = 0; lane < kLanes; ++lane) EXPECT_EQ(loaded[lane], 7 - lane);
 }
 
+TEST(Lanes, CompressToThoseOfAMask) {
+  const IntLanes numbers = CountFrom(10);
+  for (unsigned bits = 0; bits < 1u << kLanes; ++bits) {
+    IntLanes mask{};
+    std::vector<int> expected;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      if ((bits >> lane & 1u) == 0) continue;
+      mask[lane] = -1;
+      expected.push_back(10 + lane);
+    }
+    std::vector<int> compressed(kLanes);
+    ASSERT_EQ(Compress(numbers, mask, compressed.data()), expected.size());
+    compressed.resize(expected.size());
+    EXPECT_EQ(compressed, expected);
+  }
+}
+
+TEST(Lanes, GatherNumbersByTheirIndices) {
+  std::vector<float> numbers(20);
+  std::iota(numbers.begin(), numbers.end(), 0.5f);
+  const IntLanes indices = {19, 0, 7, 7, 3, 12, 1, 18};
+  const FloatLanes gathered = Gather(numbers.data(), indices);
+  for (int lane = 0; lane < kLanes; ++lane) EXPECT_EQ(gathered[lane], numbers[indices[lane]]);
+  const FloatLanes sizes = Abs(kNumbers);
+  for (int lane = 0; lane < kLanes; ++lane) EXPECT_EQ(sizes[lane], std::abs(kNumbers[lane]));
+}
+
 TEST(Lanes, GatherTheCoordinatesOfPoints) {
   std::vector<float> xyz(3 * kLanes);
   std::iota(xyz.begin(), xyz.end(), 0.0f);

@@ -98,7 +98,9 @@ struct PosedTinyBody {
     const BoneTransforms transforms = ToTransforms(model, pose);
     for (int i = 0; i < VertexCount(); i += stride) {
       const double depth = PosedVertex(model, transforms, i).z() + random.Normal(0, size_m);
-      data.classes.AddNearSurface(i, static_cast<float>(depth));
+      data.classes.near_surface.push_back(i);
+      data.classes.observed_depth.push_back(static_cast<float>(depth));
+      data.classes.weight.push_back(1.0f);
     }
     return data;
   }

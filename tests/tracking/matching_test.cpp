@@ -173,6 +173,84 @@ TEST(Classification, SortsVerticesAndPointsByWhatExplainsThem) {
   for (const int i : unexplained) EXPECT_EQ(cloud.pixels[i] % 40, 10);
 }
 
+// An image of a slanted surface with steps, holes and pixels that are no number.
+DepthImage BrokenSurface(RandomStream& random, int width, int height) {
+  DepthImage depth(width, height);
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      const double chance = random.Uniform();
+      depth(u, v) = static_cast<float>(1.0 + 0.002 * u + 0.001 * v + (chance > 0.9 ? 0.1 : 0.0));
+      if (chance < 0.1) depth(u, v) = 0.0f;
+      if (chance < 0.03) depth(u, v) = std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  return depth;
+}
+
+TEST(SampleDepth, AtEightPositionsIsThatAtEach) {
+  RandomStream random(1, "positions");
+  for (const int height : {1, 2, 30}) {
+    const DepthImage depth = BrokenSurface(random, 40, height);
+    for (int trial = 0; trial < 200; ++trial) {
+      FloatLanes u, v;
+      for (int lane = 0; lane < kLanes; ++lane) {
+        u[lane] = static_cast<float>(random.Uniform(-2.0, 42.0));
+        v[lane] = static_cast<float>(random.Uniform(-2.0, height + 2.0));
+        if (lane == 3) u[lane] = std::round(u[lane]) + (trial % 2 == 0 ? 0.5f : 0.0f);
+        if (lane == 4) v[lane] = std::round(v[lane]) + (trial % 2 == 0 ? 0.5f : 0.0f);
+      }
+      if (trial % 10 == 0) u[5] = std::numeric_limits<float>::quiet_NaN();
+      if (trial % 10 == 1) v[5] = std::numeric_limits<float>::infinity();
+      const FloatLanes sampled = SampleDepth(depth, u, v, 0.02f);
+      for (int lane = 0; lane < kLanes; ++lane) {
+        EXPECT_EQ(sampled[lane], SampleDepth(depth, u[lane], v[lane], 0.02f))
+            << u[lane] << " " << v[lane];
+      }
+    }
+  }
+}
+
+// Eight vertices are classified side by side; the reference takes one after the other.
+TEST(Classification, OfManyVerticesIsThatOfEach) {
+  const PinholeCamera camera = SmallCamera();
+  RandomStream random(1, "classes");
+  const DepthImage captured = BrokenSurface(random, camera.width, camera.height);
+  for (const BehindSurface behind : {BehindSurface::kElsewhere, BehindSurface::kHidden}) {
+    const NearnessSettings nearness{0.03f, 1, 0.02f, behind};
+    std::vector<Vector3f> vertices;
+    std::vector<int> visible;
+    VertexClasses expected, classes, single;
+    for (int i = 0; i < 60; ++i) {
+      vertices.push_back(camera.Unproject(static_cast<float>(random.Uniform(-3.0, 43.0)),
+                                          static_cast<float>(random.Uniform(-3.0, 33.0)),
+                                          static_cast<float>(random.Uniform(0.95, 1.15))));
+      if (i % 5 != 0) {
+        visible.push_back(i);
+        ClassifyVertices(vertices, {i}, captured, camera, nearness, single);
+        const auto append = [](const auto& from, auto& to) {
+          to.insert(to.end(), from.begin(), from.end());
+        };
+        append(single.near_surface, expected.near_surface);
+        append(single.observed_depth, expected.observed_depth);
+        append(single.elsewhere, expected.elsewhere);
+        const auto pixel = camera.Project(vertices.back());
+        const float z = SampleDepth(captured, pixel.x(), pixel.y(), nearness.smooth_m);
+        const bool is_near = z > 0.0f && std::abs(vertices.back().z() - z) < nearness.depth_m;
+        ASSERT_EQ(single.near_surface.size(), is_near ? 1u : 0u);
+        if (is_near) {
+          ASSERT_EQ(single.observed_depth.front(), z);
+        }
+      }
+      ClassifyVertices(vertices, visible, captured, camera, nearness, classes);
+      ASSERT_EQ(classes.near_surface, expected.near_surface);
+      ASSERT_EQ(classes.observed_depth, expected.observed_depth);
+      ASSERT_EQ(classes.elsewhere, expected.elsewhere);
+    }
+    EXPECT_GT(expected.near_surface.size(), 5u);
+    EXPECT_GT(expected.elsewhere.size(), 5u);
+  }
+}
+
 TEST(PairFinder, FindsWhatBruteForceFinds) {
   RandomStream random(3, "pairs");
   const auto point = [&] {
@@ -251,7 +329,8 @@ TEST(AverageObservedDepth, IsTheVertexsDepthPlusTheMeanDifferenceRoundIt) {
   captured(3, 3) = 0.0f;  // not measured
   const std::vector<Vector3f> vertices{{0.001f, 0.0f, 2.002f}};
   VertexClasses classes;
-  classes.AddNearSurface(0, 2.04f);
+  classes.near_surface = {0};
+  classes.observed_depth = {2.04f};
   AverageObservedDepth(vertices, captured, rendered, camera, 1, 0.05f, classes);
   EXPECT_NEAR(classes.observed_depth[0], 2.002 + (6 * 0.01 + 0.04) / 7, 1e-5);
 }
@@ -262,7 +341,8 @@ TEST(PixelSharing, TheVerticesOfAPixelShareItsWeight) {
   const std::vector<Vector3f> vertices{at(3.1f, 4.0f), at(12.0f, 4.0f), at(2.9f, 4.2f),
                                        at(7.0f, 4.0f), at(3.0f, 3.8f)};
   VertexClasses classes;
-  for (const int v : {0, 1, 2, 4}) classes.AddNearSurface(v, 2.0f);
+  classes.near_surface = {0, 1, 2, 4};
+  classes.weight.assign(4, 1.0f);
   PixelSharing sharing(camera);
   sharing.Weigh(vertices, 1.0f, classes);
   const auto third = 1.0f / 3.0f;

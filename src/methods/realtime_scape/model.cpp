@@ -42,12 +42,17 @@ BodyPose RestPose(const Model& model, const Rigidd& camera_from_subject) {
 }
 
 BoneTransforms ToTransforms(const Model& model, const BodyPose& pose) {
-  BoneTransforms camera_from_rest(kBoneCount);
+  BoneTransforms camera_from_rest;
+  ToTransforms(model, pose, camera_from_rest);
+  return camera_from_rest;
+}
+
+void ToTransforms(const Model& model, const BodyPose& pose, BoneTransforms& camera_from_rest) {
+  camera_from_rest.resize(kBoneCount);
   for (int j = 0; j < kBoneCount; ++j) {
     camera_from_rest[j] = {pose[j].rotation,
                            pose[j].center - pose[j].rotation * model.rest_centers[j]};
   }
-  return camera_from_rest;
 }
 
 BodyPose ToPose(const Model& model, const BoneTransforms& camera_from_rest) {
@@ -59,7 +64,7 @@ BodyPose ToPose(const Model& model, const BoneTransforms& camera_from_rest) {
 }
 
 void PoseSurface(const Model& model, const BodyPose& pose, PosedSurface& surface) {
-  surface.camera_from_rest = ToTransforms(model, pose);
+  ToTransforms(model, pose, surface.camera_from_rest);
   SkinLinear(model.rest_vertices, model.weights, surface.camera_from_rest, surface.vertices);
 }
 

@@ -42,6 +42,7 @@ struct Model {
 BodyPose RestPose(const Model& model, const Rigidd& camera_from_subject);
 
 BoneTransforms ToTransforms(const Model& model, const BodyPose& pose);
+void ToTransforms(const Model& model, const BodyPose& pose, BoneTransforms& camera_from_rest);
 BodyPose ToPose(const Model& model, const BoneTransforms& camera_from_rest);
 
 // The surface in some pose (camera frame).

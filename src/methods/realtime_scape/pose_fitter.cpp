@@ -187,7 +187,8 @@ Energies PoseFitter::Assemble(const TermInput& input) {
 PoseFitter::Solution PoseFitter::Solve(const BlockNormalEquations& equations) {
   SolveStatus status = SolveStatus::kNotPositiveDefinite;
   if (std::isfinite(equations.energy())) {
-    status = solver_->Solve(equations.hessian(), -equations.gradient(), increment_);
+    descent_ = -equations.gradient();
+    status = solver_->Solve(equations.hessian(), descent_, increment_);
   } else {
     increment_.setZero(equations.size());
   }

@@ -112,7 +112,7 @@ class PoseFitter {
   Classification classification_;
   FreeSpace free_space_;
   BlockNormalEquations equations_, equations_after_;  // before and after a step
-  Eigen::VectorXd increment_;
+  Eigen::VectorXd descent_, increment_;               // −g, and the x of H x = −g
 };
 
 }  // namespace vitruvia::realtime_scape

@@ -226,6 +226,7 @@ TrackResult SubjectTracker::Result(FitSummary fit, Ending ending) const {
   if (settings_.uncertainty.IsAsked())
     ReportUncertainty(fit.unit_covariances, fit.supports, settings_.uncertainty, result);
   result.iterations = fit.iterations;
+  result.energies.reserve(kEnergyTermCount);
   for (std::size_t k = 0; k < kEnergyTermCount; ++k) {
     result.energies.push_back({Name(static_cast<EnergyTerm>(k)), fit.energies[k]});
   }

@@ -36,6 +36,7 @@ double RobustWeight(RobustKernel kernel, double residual_m, double scale_m) {
 }
 
 double NoiseWeight(const NoiseSettings& noise, const Vector3d& point, const Vector3d& direction) {
+  if (noise.sensor.IsZero()) return 1.0;
   const double model_m2 = noise.model_deviation_m * noise.model_deviation_m;
   const double cosine = direction.dot(point.normalized());
   return model_m2 / (model_m2 + noise.sensor.Variance_m2(point.z(), cosine));
