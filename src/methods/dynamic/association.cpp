@@ -220,8 +220,9 @@ void Association::Observe(const PointCloud& cloud, WorkerTeam& team,
                           Observations<float>& observations) const {
   const int parts = team.threads();
   team.For(parts, 1, [&](int part, int next) {
-    const int begin = layout_->slot_count() * part / parts;
-    const int end = layout_->slot_count() * next / parts;
+    const int groups = layout_->slot_count() / kLanes;
+    const int begin = groups * part / parts * kLanes, end = groups * next / parts * kLanes;
+    observations.Clear(begin, end);
     for (std::size_t i = 0; i < nearest_.size(); ++i) {
       const int slot = nearest_[i];
       if (slot >= begin && slot < end) observations.Add(slot, cloud.points[i]);

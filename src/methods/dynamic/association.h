@@ -2,13 +2,13 @@
 // model vertex in a window round its pixel.
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "core/worker_team.h"
 #include "geometry/camera.h"
 #include "geometry/point_cloud.h"
 #include "math/lanes.h"
+#include "methods/dynamic/observations.h"
 #include "methods/dynamic/surface.h"
 
 namespace vitruvia::dynamic {
@@ -17,30 +17,6 @@ struct AssociationLimits {
   int window_px = 16;          // half width: columns and rows to either side of a point's pixel
   float cutoff_m = 0.08f;      // vertices at this distance or farther are not taken
   float facing_cosine = 0.1f;  // least cosine of the angle between normal and line of sight
-};
-
-// The observations of each slot: sum and number of the points that are paired with it.
-template <class Scalar>
-struct Observations {
-  std::vector<Scalar> sums;  // x, y, z, count of each slot
-
-  void Reset(int slots) { sums.assign(4 * static_cast<std::size_t>(slots), Scalar(0)); }
-  void Clear(int begin_slot, int end_slot) {
-    std::fill(sums.begin() + 4 * std::ptrdiff_t{begin_slot},
-              sums.begin() + 4 * std::ptrdiff_t{end_slot}, Scalar(0));
-  }
-  Scalar Count(int slot) const { return sums[4 * static_cast<std::size_t>(slot) + 3]; }
-  Vector3<Scalar> Mean(int slot) const {  // p̄; only where Count is not 0
-    const Scalar* s = &sums[4 * static_cast<std::size_t>(slot)];
-    return Vector3<Scalar>(s[0], s[1], s[2]) / s[3];
-  }
-  void Add(int slot, const Vector3<Scalar>& point) {
-    Scalar* s = &sums[4 * static_cast<std::size_t>(slot)];
-    s[0] += point.x();
-    s[1] += point.y();
-    s[2] += point.z();
-    s[3] += Scalar(1);
-  }
 };
 
 class Association {
@@ -58,8 +34,8 @@ class Association {
   // exact: it begins at the point's pixel and stops when vertices of farther pixels cannot be
   // closer than the best one so far.
   void FindNearest(const PointCloud& cloud, const AssociationLimits& limits, WorkerTeam& team);
-  // Adds the points to the vertices that they chose, in the cloud's order. Each thread of the team
-  // sums the points of its share of the slots.
+  // Sums the points of each vertex that was chosen, in the cloud's order. Each thread of the team
+  // sums those of its share of the slots.
   void Observe(const PointCloud& cloud, WorkerTeam& team, Observations<float>& observations) const;
 
   const std::vector<int>& pixels() const { return pixels_; }    // per slot

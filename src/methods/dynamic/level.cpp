@@ -33,7 +33,6 @@ void Level::Match(const TreePose& pose, const AssociationLimits& limits, WorkerT
     for (int i = begin; i < end; ++i) {
       PosePatch(patches[i], motions, surface);
       association.ProjectPatch(i, surface, limits);
-      observations.Clear(patches[i].begin, patches[i].end);
     }
   });
   clock.Lap(TimedStep::kSkin);
