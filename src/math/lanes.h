@@ -5,6 +5,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <vector>
@@ -44,6 +45,14 @@ using Lanes = typename LanesOf<Scalar>::Type;
 inline FloatLanes Min(FloatLanes a, FloatLanes b) { return a < b ? a : b; }
 inline FloatLanes Max(FloatLanes a, FloatLanes b) { return a > b ? a : b; }
 inline FloatLanes Abs(FloatLanes x) { return Max(x, -x); }
+inline FloatLanes Sqrt(FloatLanes x) {
+#ifdef __AVX__
+  return reinterpret_cast<FloatLanes>(_mm256_sqrt_ps(reinterpret_cast<__m256>(x)));
+#else
+  for (int lane = 0; lane < kLanes; ++lane) x[lane] = std::sqrt(x[lane]);
+  return x;
+#endif
+}
 
 // The next three functions need numbers that fit an int.
 inline IntLanes Truncate(FloatLanes x) { return __builtin_convertvector(x, IntLanes); }

@@ -83,8 +83,7 @@ void Search(const Cloudy& c, const AssociationLimits& limits, WorkerTeam& team,
   for (std::size_t patch = 0; patch < c.surface.layout.patches.size(); ++patch) {
     association.ProjectPatch(static_cast<int>(patch), c.surface, limits);
   }
-  association.FillBuckets(c.surface, team);
-  association.FindNearest(c.cloud, limits, team);
+  association.FindNearest(limits, team);
 }
 
 void ExpectBruteForce(const Cloudy& c, const AssociationLimits& limits,
@@ -104,6 +103,7 @@ TEST(Association, FindsWhatBruteForceFinds) {
         const Cloudy c(static_cast<std::uint64_t>(count + window), count);
         const AssociationLimits limits{window, cutoff, 0.2f};
         Association association(kCamera, c.surface.layout);
+        association.SetCloud(c.cloud);
         Search(c, limits, team, association);
         ExpectBruteForce(
             c, limits, association,
@@ -120,11 +120,12 @@ TEST(Association, IsTheSameForAnyNumberOfThreads) {
   for (const int threads : {1, 2, 3, 4, 7, 64}) {
     WorkerTeam team(threads);
     Association association(kCamera, c.surface.layout);
+    association.SetCloud(c.cloud);
     Search(c, limits, team, association);
     ExpectBruteForce(c, limits, association, fmt::format("on {} threads", threads));
     Observations<float> observations;
     observations.Reset(c.surface.layout.slot_count());
-    association.Observe(c.cloud, team, observations);
+    association.Observe(team, observations);
     if (threads == 1) expected_sums = observations.sums;
     EXPECT_EQ(observations.sums, expected_sums) << threads << " threads";
   }
@@ -139,6 +140,7 @@ TEST(Association, ForgetsWhatItFoundBefore) {
   const AssociationLimits limits[] = {
       {100, 5.0f, 0.2f}, {12, 0.1f, 0.2f}, {3, 0.1f, 0.7f}, {100, 0.3f, 0.0f}, {12, 0.02f, 0.2f}};
   for (std::size_t search = 0; search < std::size(limits); ++search) {
+    association.SetCloud(c.cloud);
     Search(c, limits[search], team, association);
     ExpectBruteForce(c, limits[search], association, fmt::format("in search {}", search));
     for (int slot = 0; slot < c.surface.layout.slot_count(); ++slot) {
@@ -150,15 +152,124 @@ TEST(Association, ForgetsWhatItFoundBefore) {
   }
 }
 
+// A sheet of vertices before the camera, with points near it: most points keep their vertex while
+// the sheet moves little.
+struct Sheet : Cloudy {
+  Sheet() : Cloudy(11, 5000), random(12, "motion") {
+    for (int slot = 0; slot < surface.layout.slot_count(); ++slot) {
+      if (surface.layout.vertex_of_slot[slot] < 0) continue;
+      const auto x = static_cast<float>(random.Uniform(-0.9, 0.9));
+      const auto y = static_cast<float>(random.Uniform(-0.6, 0.6));
+      surface.posed.Set(slot, {x, y, HeightAt(x)});
+    }
+    for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+      const bool is_far = random.Index(10) == 0;  // behind the sheet
+      const int u = cloud.pixels[i] % kCamera.width, v = cloud.pixels[i] / kCamera.width;
+      const float x = kCamera.Unproject(static_cast<float>(u), 0.0f, 1.2f).x();
+      const auto off = static_cast<float>(is_far ? 0.1 : random.Uniform(-0.02, 0.02));
+      const float z = HeightAt(x) + off;
+      cloud.points[i] = kCamera.Unproject(static_cast<float>(u), static_cast<float>(v), z);
+    }
+  }
+
+  static float HeightAt(float x) { return 1.2f + 0.05f * std::sin(8.0f * x); }
+
+  // Every vertex by up to far_m, and some vertices turn to the camera or away from it.
+  void Move(double far_m) {
+    for (int slot = 0; slot < surface.layout.slot_count(); ++slot) {
+      if (surface.layout.vertex_of_slot[slot] < 0) continue;
+      const Vector3f step(static_cast<float>(random.Uniform(-far_m, far_m)),
+                          static_cast<float>(random.Uniform(-far_m, far_m)),
+                          static_cast<float>(random.Uniform(-far_m, far_m)));
+      surface.posed.Set(slot, surface.posed.At(slot) + step);
+      if (random.Index(100) == 0) surface.normals.Set(slot, -surface.normals.At(slot));
+    }
+  }
+
+  RandomStream random;
+};
+
+// As in the iterations of a frame: one cloud, a surface that comes to rest, and cutoffs that fall,
+// then rise for the shape.
+TEST(Association, ProvesMatchesOnlyWhereTheyAreWhatBruteForceFinds) {
+  const double motions_m[] = {0.02, 0.005, 0.001, 0.001, 0.0003, 0.01, 0.01, 0.0003, 0.0001};
+  const float cutoffs_m[] = {0.12f, 0.09f, 0.06f, 0.04f, 0.03f, 0.02f, 0.02f, 0.04f, 0.04f};
+  constexpr std::pair<int, int> kWindowsAndThreads[] = {{0, 2}, {1, 1}, {4, 3}, {32, 1}, {32, 4}};
+  for (const auto& [window, threads] : kWindowsAndThreads) {
+    WorkerTeam team(threads);
+    Sheet sheet;
+    Association association(kCamera, sheet.surface.layout);
+    association.SetCloud(sheet.cloud);
+    for (std::size_t i = 0; i < std::size(motions_m); ++i) {
+      const AssociationLimits limits{window, cutoffs_m[i], 0.2f};
+      Search(sheet, limits, team, association);
+      ExpectBruteForce(sheet, limits, association,
+                       fmt::format("in search {}, window {}", i, window));
+      sheet.Move(motions_m[i]);
+    }
+    const auto points = static_cast<int>(sheet.cloud.points.size());
+    EXPECT_LT(association.searched(), window == 0 ? points : points / 2) << window;
+  }
+}
+
+TEST(Association, KeepsWhatItFoundWhereNothingMoves) {
+  WorkerTeam team(2);
+  Sheet sheet;
+  Association association(kCamera, sheet.surface.layout);
+  association.SetCloud(sheet.cloud);
+  const AssociationLimits limits{12, 0.1f, 0.2f};
+  const auto count = static_cast<int>(sheet.cloud.points.size());
+  Search(sheet, limits, team, association);
+  EXPECT_EQ(association.searched(), count);
+  Search(sheet, limits, team, association);
+  EXPECT_LT(association.searched(), count / 4);  // those far from the surface have no bound
+  const AssociationLimits wider{20, 0.1f, 0.2f};
+  Search(sheet, wider, team, association);
+  EXPECT_EQ(association.searched(), count);
+  association.SetCloud(sheet.cloud);
+  Search(sheet, wider, team, association);
+  EXPECT_EQ(association.searched(), count);
+}
+
+TEST(Association, SearchesAnewWhereAVertexTurnsToTheCamera) {
+  WorkerTeam team(1);
+  Surface<float> surface(OneBone(2), std::vector<Vector3f>(2, Vector3f::Zero()),
+                         std::vector<Vector3f>(2, -Vector3f::UnitZ()));
+  surface.posed.Set(0, {0.004f, 0.0f, 1.0f});
+  surface.posed.Set(1, {0.001f, 0.0f, 1.0f});
+  surface.normals.Set(0, -Vector3f::UnitZ());
+  surface.normals.Set(1, Vector3f::UnitZ());
+  PointCloud cloud;
+  cloud.pixels = {25 * kCamera.width + 30};
+  cloud.points = {kCamera.Unproject(30.0f, 25.0f, 1.0f)};
+  Association association(kCamera, surface.layout);
+  association.SetCloud(cloud);
+  const auto nearest = [&] {
+    association.ProjectPatch(0, surface, {});
+    association.FindNearest({}, team);
+    return association.nearest()[0];
+  };
+  EXPECT_EQ(nearest(), 0);
+  EXPECT_EQ(nearest(), 0);
+  EXPECT_EQ(association.searched(), 0);
+  surface.normals.Set(1, -Vector3f::UnitZ());
+  EXPECT_EQ(nearest(), 1);
+  surface.normals.Set(1, Vector3f::UnitZ());
+  EXPECT_EQ(nearest(), 0);
+  surface.posed.Set(0, {0.09f, 0.0f, 1.0f});  // beyond the cutoff
+  EXPECT_EQ(nearest(), -1);
+}
+
 TEST(Association, AveragesThePointsThatChoseAVertex) {
   const Cloudy c(9, 50);
   const AssociationLimits limits{100, 5.0f, 0.2f};
   Association association(kCamera, c.surface.layout);
+  association.SetCloud(c.cloud);
   WorkerTeam team(1);
   Search(c, limits, team, association);
   Observations<float> observations;
   observations.Reset(c.surface.layout.slot_count());
-  association.Observe(c.cloud, team, observations);
+  association.Observe(team, observations);
   int chosen = 0;
   for (int slot = 0; slot < c.surface.layout.slot_count(); ++slot) {
     Vector3d sum = Vector3d::Zero();
@@ -176,6 +287,20 @@ TEST(Association, AveragesThePointsThatChoseAVertex) {
   EXPECT_GT(chosen, 10);
 }
 
+TEST(Observations, BeginAnewAfterTheyAreCleared) {
+  Observations<float> observations;
+  observations.Reset(2 * kLanes);
+  observations.Add(3, {1.0f, 2.0f, 3.0f});
+  observations.Add(9, {1.0f, 1.0f, 1.0f});
+  observations.Clear(0, kLanes);
+  EXPECT_EQ(observations.Count(3), 0.0f);
+  EXPECT_EQ(observations.Count(9), 1.0f);
+  observations.Add(3, {5.0f, 6.0f, 7.0f});
+  observations.Add(3, {7.0f, 8.0f, 9.0f});
+  EXPECT_EQ(observations.Count(3), 2.0f);
+  EXPECT_EQ(observations.Mean(3), Vector3f(6.0f, 7.0f, 8.0f));
+}
+
 TEST(Association, LeavesOutWhatIsNotBeforeTheCamera) {
   Surface<float> surface(OneBone(4), std::vector<Vector3f>(4, Vector3f::Zero()),
                          std::vector<Vector3f>(4, -Vector3f::UnitZ()));
@@ -186,9 +311,9 @@ TEST(Association, LeavesOutWhatIsNotBeforeTheCamera) {
   surface.posed.Set(3, {0.0f, 0.0f, 0.0f});   // no direction at all
   Association association(kCamera, surface.layout);
   association.ProjectPatch(0, surface, {});
-  EXPECT_EQ(association.pixels()[0], 25 * kCamera.width + 30);
+  EXPECT_EQ(association.PixelOf(0), 25 * kCamera.width + 30);
   for (int slot = 1; slot < surface.layout.slot_count(); ++slot) {
-    EXPECT_EQ(association.pixels()[slot], -1) << slot;
+    EXPECT_EQ(association.PixelOf(slot), -1) << slot;
   }
 }
 

@@ -244,10 +244,9 @@ PoseEquations AssembledInFloat(const EquationStage& stage) {
   auto surface = SurfaceOf<float>(SmoothMesh(stage.body));
   PoseAll(stage.pose, surface);
   Observations<float> observations;
-  observations.Reset(surface.layout.slot_count());
-  for (std::size_t i = 0; i < observations.sums.size(); ++i) {
-    observations.sums[i] = static_cast<float>(stage.observations.sums[i]);
-  }
+  observations.observed = stage.observations.observed;
+  for (const double sum : stage.observations.sums)
+    observations.sums.push_back(static_cast<float>(sum));
   LinkEquations<float> links(surface.layout);
   const auto motions = LinkMotionsOf<float>(stage.pose);
   for (std::size_t i = 0; i < surface.layout.patches.size(); ++i) {

@@ -1,15 +1,25 @@
 // Projective data association (paper B, sec. 4.1): every observed point is paired with the closest
 // model vertex in a window round its pixel.
+//
+// Between the iterations of a frame the surface moves little, and few points change their vertex.
+// For each point a lower bound of the distance to every other vertex is kept, as Hamerly (2010)
+// does for k-means. It shrinks by the largest motion of a vertex at the pixels round the point's;
+// a vertex that had no pixel before counts as moved without limit. A match that is still closer
+// than the bound is the closest vertex, and is not searched for. Likewise a point has no match
+// while the bound of all vertices, less the largest motion in the image, is beyond the cutoff.
 #pragma once
 
-#include <algorithm>
+#include <span>
 #include <vector>
 
 #include "core/worker_team.h"
 #include "geometry/camera.h"
 #include "geometry/point_cloud.h"
 #include "math/lanes.h"
+#include "methods/dynamic/observations.h"
+#include "methods/dynamic/pixel_motions.h"
 #include "methods/dynamic/surface.h"
+#include "methods/dynamic/tile_boxes.h"
 
 namespace vitruvia::dynamic {
 
@@ -19,86 +29,111 @@ struct AssociationLimits {
   float facing_cosine = 0.1f;  // least cosine of the angle between normal and line of sight
 };
 
-// The observations of each slot: sum and number of the points that are paired with it.
-template <class Scalar>
-struct Observations {
-  std::vector<Scalar> sums;  // x, y, z, count of each slot
-
-  void Reset(int slots) { sums.assign(4 * static_cast<std::size_t>(slots), Scalar(0)); }
-  void Clear(int begin_slot, int end_slot) {
-    std::fill(sums.begin() + 4 * std::ptrdiff_t{begin_slot},
-              sums.begin() + 4 * std::ptrdiff_t{end_slot}, Scalar(0));
-  }
-  Scalar Count(int slot) const { return sums[4 * static_cast<std::size_t>(slot) + 3]; }
-  Vector3<Scalar> Mean(int slot) const {  // p̄; only where Count is not 0
-    const Scalar* s = &sums[4 * static_cast<std::size_t>(slot)];
-    return Vector3<Scalar>(s[0], s[1], s[2]) / s[3];
-  }
-  void Add(int slot, const Vector3<Scalar>& point) {
-    Scalar* s = &sums[4 * static_cast<std::size_t>(slot)];
-    s[0] += point.x();
-    s[1] += point.y();
-    s[2] += point.z();
-    s[3] += Scalar(1);
-  }
-};
-
 class Association {
  public:
   Association(const PinholeCamera& camera, const SurfaceLayout& layout);
 
-  // The pixel of each slot of a patch, −1 for one that does not face the camera or lies outside the
-  // image. After PosePatch.
+  // The points that the next searches are for.
+  void SetCloud(const PointCloud& cloud);
+  // The pixel of each slot of a patch that faces the camera and lies inside the image. Before each
+  // search once for every patch, after PosePatch. Patches may be projected on different threads.
   void ProjectPatch(int patch, const Surface<float>& surface, const AssociationLimits& limits);
-  // Sorts the vertices of all patches, once they are projected, into buckets, one for each pixel.
-  // Each thread of the team fills the buckets of its share of the rows.
-  void FillBuckets(const Surface<float>& surface, WorkerTeam& team);
-  // For each point of the cloud the closest vertex among the buckets of its window, nearer than the
-  // cutoff; of equally close ones the one of the lowest slot; −1 if there is none. The search is
-  // exact: it begins at the point's pixel and stops when vertices of farther pixels cannot be
-  // closer than the best one so far.
-  void FindNearest(const PointCloud& cloud, const AssociationLimits& limits, WorkerTeam& team);
-  // Adds the points to the vertices that they chose, in the cloud's order. Each thread of the team
-  // sums the points of its share of the slots.
-  void Observe(const PointCloud& cloud, WorkerTeam& team, Observations<float>& observations) const;
+  // For each point the closest vertex among those whose pixels are in its window, nearer than the
+  // cutoff; of equally close ones the one of the lowest slot; −1 if there is none. Exact.
+  void FindNearest(const AssociationLimits& limits, WorkerTeam& team);
+  // Sums the points of each vertex that was chosen, in the cloud's order. Each thread of the team
+  // sums those of its share of the slots.
+  void Observe(WorkerTeam& team, Observations<float>& observations) const;
 
-  const std::vector<int>& pixels() const { return pixels_; }    // per slot
-  const std::vector<int>& nearest() const { return nearest_; }  // per point: a slot or −1
+  int PixelOf(int slot) const;            // v · width + u, or −1
+  std::span<const int> nearest() const {  // per point: a slot or −1
+    return {nearest_.data(), static_cast<std::size_t>(point_count_)};
+  }
+  int searched() const { return searched_; }  // points of the last search without a proof
 
  private:
-  // The best so far in each lane of a search.
+  struct Pixel {
+    int column, row;
+  };
+  // The best so far in each lane of a search, and the second best.
   struct Best {
     FloatLanes squared;
     IntLanes slot;
+    FloatLanes second;
   };
-  // The visible part of a patch: number of slots with a pixel, and range of their pixels.
+  struct Match {
+    int slot;
+    float bound_m;  // no other vertex with a pixel is closer
+    float least_m;  // none at all
+  };
+  // The visible part of a patch: number of slots with a pixel, range of their buckets, motions.
   struct PatchView {
-    int facing = 0, lowest_pixel = 0, highest_pixel = 0;
+    int facing = 0;
+    int lowest_bucket = 0, highest_bucket = 0;
+    int lowest_column = 0, highest_column = 0;
+    int arrived = 0;        // slots that have a pixel, but had none in the last projection
+    float moved_m2 = 0.0f;  // the farthest motion of the others
   };
+
+  int BucketOf(int row, int column) const { return row * stride_ + column; }
+  int ListFacing(int begin, int end);
+  PixelBox FindBox() const;
+  void CollectArrivals();
+  void FillBuckets(WorkerTeam& team);
   template <class Body>
-  void ForEachFacingSlot(int begin_pixel, int end_pixel, const Body& body) const;
-  int CountBuckets(int begin_pixel, int end_pixel);
-  void SortIntoBuckets(const Surface<float>& surface, int begin_pixel, int end_pixel,
-                       int first_entry);
-  void FindLongestRays(int window_px);
-  int NearestTo(const Vector3f& point, int pixel, const AssociationLimits& limits) const;
-  void ScanRow(const Vector3f& point, int row, int first_column, int last_column, Best& best) const;
+  void ForEachFacingSlot(int begin_row, int end_row, const Body& body) const;
+  int CountBuckets(int begin_row, int end_row);
+  void SortIntoBuckets(int begin_row, int end_row, int first_entry);
+  void BoundTiles(int begin_row, int end_row);
+  void SetWindow(int window_px);
+  int FindNearestOf(int begin, int end, float cutoff_m);
+  unsigned KeepProven(int first_point, float cutoff_m);
+  FloatLanes LeastDistances(int first_point, const IntLanes& is_asked, float cutoff_m) const;
+  Match Search(int point, float cutoff_m) const;
+  void SearchFarther(int point, float nearest_m, Best& best) const;
+  void ScanRow(const Vector3f& point, int row, const ColumnRange& columns, Best& best) const;
+  float SquaredDistanceOfMatch(int point) const;
+  float NearestBeyond(int point, int pixels) const;
+  int ReachOf(int point, float distance_m) const;
 
   PinholeCamera camera_;
   const SurfaceLayout* layout_;
-  std::vector<int> pixels_;
-  std::vector<int> facing_;  // the slots that have a pixel, from each patch's begin on
-  std::vector<PatchView> views_;
-  std::vector<int> bucket_begin_;  // per pixel, and one more
+
+  std::vector<int> buckets_;      // per slot; −1: without a pixel
+  std::vector<float> moved_m2_;   // per slot: since the last projection; ∞: it had no pixel then
+  Columns<float> projected_;      // per slot: position at the last projection
+  std::vector<int> facing_;       // the slots with a bucket, from each patch's begin on
+  std::vector<int> arrived_;      // those that had none before, likewise
+  std::vector<PatchView> views_;  // per patch
+  TileBoxes tile_boxes_;
+
+  // Of the whole image: positions of the slots that arrived, farthest motion of the others.
+  int arrival_count_ = 0;
+  Columns<float> arrivals_;
+  float farthest_moved_m_ = 0.0f;
+
+  // The facing slots, sorted by pixel: their positions and numbers, followed by dummies that
+  // are never chosen. A row of buckets has one more than columns, where its last pixel ends.
+  int stride_;
+  PixelMotions motions_;
+  PixelBox box_;  // of the slots with a bucket
+  std::vector<int> bucket_begin_;
   std::vector<int> part_entries_;  // per thread: the entries of the buckets that it fills
-  int first_row_ = 0, last_row_ = -1;
-  // The facing slots sorted by pixel: their positions and numbers, followed by kLanes dummies that
-  // are never chosen.
   Columns<float> sorted_;
   std::vector<int> sorted_slots_;
-  // Per column and row: the longest (u − cx, fx) or (v − cy, fy) in the window round it, pixels.
-  std::vector<float> column_ray_, row_ray_;
+
+  // Per point, filled up to whole lanes.
+  int point_count_ = 0, searched_ = 0;
+  Columns<float> points_;
+  std::vector<Pixel> point_pixels_;
+  std::vector<int> point_buckets_;
   std::vector<int> nearest_;
+  std::vector<float> bounds_m_;  // no vertex with a pixel but the nearest one is closer
+  std::vector<float> least_m_;   // no vertex with a pixel is closer; 0 where not known
+
+  // Per column and row: the longest (u − cx, fx) or (v − cy, fy) in the window round it, pixels.
+  int window_px_ = -1;
+  std::vector<float> column_ray_, row_ray_;
 };
 
 }  // namespace vitruvia::dynamic

@@ -1,6 +1,7 @@
 // The blend of a patch's dual quaternions for eight vertices (paper B, eq. 3).
 #pragma once
 
+#include <array>
 #include <cstring>
 
 #include "methods/dynamic/surface.h"
@@ -11,19 +12,30 @@ template <class Scalar>
 Lanes<Scalar> Load(const std::vector<Scalar>& column, int slot) {
   return LoadLanes<Lanes<Scalar>>(column, slot);
 }
+// The numbers of eight slots, in any order.
+using SlotLanes = std::array<int, kLanes>;
+template <class Scalar>
+[[gnu::always_inline]] inline Lanes<Scalar> Load(const std::vector<Scalar>& column,
+                                                 const SlotLanes& slots) {
+  const Scalar* numbers = column.data();
+  return Lanes<Scalar>{numbers[slots[0]], numbers[slots[1]], numbers[slots[2]], numbers[slots[3]],
+                       numbers[slots[4]], numbers[slots[5]], numbers[slots[6]], numbers[slots[7]]};
+}
 template <class Scalar>
 void Store(const Lanes<Scalar>& values, int slot, std::vector<Scalar>& column) {
   std::memcpy(&column[slot], &values, sizeof values);
 }
 
-// Eight 3-vectors.
+// Eight 3-vectors. They are loaded from eight slots side by side, given by the first one, or from
+// any eight.
 template <class Scalar>
 struct LaneVector {
   Lanes<Scalar> x, y, z;
 
-  static LaneVector Load(const Columns<Scalar>& columns, int slot) {
-    return {dynamic::Load<Scalar>(columns.x, slot), dynamic::Load<Scalar>(columns.y, slot),
-            dynamic::Load<Scalar>(columns.z, slot)};
+  template <class Slots>
+  static LaneVector Load(const Columns<Scalar>& columns, const Slots& slots) {
+    return {dynamic::Load<Scalar>(columns.x, slots), dynamic::Load<Scalar>(columns.y, slots),
+            dynamic::Load<Scalar>(columns.z, slots)};
   }
   void Store(int slot, Columns<Scalar>& columns) const {
     dynamic::Store<Scalar>(x, slot, columns.x);
@@ -66,17 +78,18 @@ struct LaneBlend {
   LaneVector<Scalar> u, d;
   Lanes<Scalar> inverse_square;  // 1 / |(a, u)|²
 
-  template <int N>
+  template <int N, class Slots>
   static LaneBlend Of(const std::array<DualQuaternion<Scalar>, kMaxInfluences>& q,
-                      const std::array<std::vector<Scalar>, kMaxInfluences>& weights, int slot) {
+                      const std::array<std::vector<Scalar>, kMaxInfluences>& weights,
+                      const Slots& slots) {
     LaneBlend blend;
-    const Lanes<Scalar> first = Load<Scalar>(weights[0], slot);
+    const Lanes<Scalar> first = Load<Scalar>(weights[0], slots);
     blend.a = first * q[0].real.w();
     blend.u = {first * q[0].real.x(), first * q[0].real.y(), first * q[0].real.z()};
     blend.b = first * q[0].dual.w();
     blend.d = {first * q[0].dual.x(), first * q[0].dual.y(), first * q[0].dual.z()};
     for (int k = 1; k < N; ++k) {
-      const Lanes<Scalar> w = Load<Scalar>(weights[k], slot);
+      const Lanes<Scalar> w = Load<Scalar>(weights[k], slots);
       blend.a += w * q[k].real.w();
       blend.u.x += w * q[k].real.x();
       blend.u.y += w * q[k].real.y();

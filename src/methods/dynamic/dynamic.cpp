@@ -187,11 +187,10 @@ void Dynamic::ReadClouds(const DepthFrame& frame) {
   Session& s = *session_;
   CheckFrameSize(frame, s.camera);
   s.clock.Restart();
-  const auto max_depth = static_cast<float>(settings_.max_depth_m);
-  CloudFromDepth(frame.depth, s.camera, 1, max_depth, s.fine.cloud);
+  s.fine.ReadCloud(frame.depth, s.camera, 1, settings_.max_depth_m);
   if (s.coarse) {
-    CloudFromDepth(frame.depth, s.camera, settings_.association.pose_pixel_stride, max_depth,
-                   s.coarse->cloud);
+    s.coarse->ReadCloud(frame.depth, s.camera, settings_.association.pose_pixel_stride,
+                        settings_.max_depth_m);
   }
   s.clock.Lap(TimedStep::kCloud);
 }

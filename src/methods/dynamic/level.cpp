@@ -16,6 +16,12 @@ Level::Level(const TrackedMesh& mesh, const PinholeCamera& camera)
   observations.Reset(surface.layout.slot_count());
 }
 
+void Level::ReadCloud(const DepthImage& depth, const PinholeCamera& camera, int stride_px,
+                      double max_depth_m) {
+  CloudFromDepth(depth, camera, stride_px, static_cast<float>(max_depth_m), cloud);
+  association.SetCloud(cloud);
+}
+
 void Level::PoseVertices(const TreePose& pose, WorkerTeam& team, Clock& clock) {
   const BoneMotions<float> motions = MotionsOf<float>(pose);
   const auto& patches = surface.layout.patches;
@@ -33,13 +39,11 @@ void Level::Match(const TreePose& pose, const AssociationLimits& limits, WorkerT
     for (int i = begin; i < end; ++i) {
       PosePatch(patches[i], motions, surface);
       association.ProjectPatch(i, surface, limits);
-      observations.Clear(patches[i].begin, patches[i].end);
     }
   });
   clock.Lap(TimedStep::kSkin);
-  association.FillBuckets(surface, team);
-  association.FindNearest(cloud, limits, team);
-  association.Observe(cloud, team, observations);
+  association.FindNearest(limits, team);
+  association.Observe(team, observations);
   clock.Lap(TimedStep::kAssociate);
 }
 
@@ -57,7 +61,7 @@ void Level::Assemble(const KinematicTree& tree, const TreePose& pose, WorkerTeam
 }
 
 double Level::MatchedShare() const {
-  const auto& nearest = association.nearest();
+  const auto nearest = association.nearest();
   if (nearest.empty()) return 0.0;
   const auto missed = std::count(nearest.begin(), nearest.end(), -1);
   return 1.0 - static_cast<double>(missed) / static_cast<double>(nearest.size());

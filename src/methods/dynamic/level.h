@@ -35,6 +35,9 @@ using Clock = StepClock<TimedStep>;
 struct Level {
   Level(const TrackedMesh& mesh, const PinholeCamera& camera);
 
+  // The points of the pixels whose column and row are multiples of the stride.
+  void ReadCloud(const DepthImage& depth, const PinholeCamera& camera, int stride_px,
+                 double max_depth_m);
   // Eqs. 3 to 5 for all vertices.
   void PoseVertices(const TreePose& pose, WorkerTeam& team, Clock& clock);
   // Poses the surface and associates every point of the cloud with a vertex.

@@ -1,6 +1,8 @@
 #include "methods/dynamic/pose_equations.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 
 #include "math/rigid.h"
 #include "methods/dynamic/blend.h"
@@ -65,6 +67,53 @@ struct LinkRow {
   }
 };
 
+// The observed slots of a patch, row by row in full lanes. A slot stays in its lane and in its
+// order there, so each lane adds up the same numbers in the same order as without packing.
+struct PackedSlots {
+  std::array<SlotLanes, kMaxPatchSlots / kLanes> slots;
+  IntLanes count_of_lane{};  // rows below it hold an observed slot, rows from it on any slot
+  int rows = 0;
+
+  PackedSlots(const Patch& patch, const std::vector<std::uint8_t>& observed) {
+    SlotLanes counts{};
+    for (int first = patch.begin; first < patch.end; first += kLanes) {
+      for (unsigned bits = observed[first / kLanes]; bits != 0; bits &= bits - 1) {
+        const int lane = std::countr_zero(bits);
+        slots[counts[lane]++][lane] = first + lane;
+      }
+    }
+    rows = *std::max_element(counts.begin(), counts.end());
+    for (int lane = 0; lane < kLanes; ++lane) {
+      count_of_lane[lane] = counts[lane];
+      for (int row = counts[lane]; row < rows; ++row) slots[row][lane] = patch.begin + lane;
+    }
+  }
+};
+
+// Means of the points of eight slots, 0 in lanes that are off, and 1 in those that are on.
+template <class Scalar>
+struct LaneMeans {
+  LaneVector<Scalar> mean;
+  Lanes<Scalar> mask;
+};
+template <class Scalar>
+[[gnu::always_inline]] inline LaneMeans<Scalar> MeansOf(const Observations<Scalar>& observations,
+                                                        const SlotLanes& slots,
+                                                        const IntLanes& is_on) {
+  LaneVector<Scalar> sum{};
+  Lanes<Scalar> count{}, mask{};
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const Scalar* s = &observations.sums[4 * static_cast<std::size_t>(slots[lane])];
+    sum.x[lane] = s[0];
+    sum.y[lane] = s[1];
+    sum.z[lane] = s[2];
+    count[lane] = is_on[lane] != 0 ? s[3] : Scalar(1);
+    mask[lane] = is_on[lane] != 0 ? Scalar(1) : Scalar(0);
+  }
+  const Lanes<Scalar> inverse_count = Scalar(1) / count;
+  return {{sum.x * inverse_count, sum.y * inverse_count, sum.z * inverse_count}, mask};
+}
+
 }  // namespace
 
 template <class Scalar>
@@ -93,42 +142,28 @@ void LinkEquations<Scalar>::AddLanes(const Patch& patch, const Surface<Scalar>& 
   using Lane = Lanes<Scalar>;
   LaneRows<N, Scalar> rows;
   typename LaneRows<N, Scalar>::Row row;
-  sums.residuals = 0;
+  const PackedSlots packed(patch, observations.observed);
   const auto q = InOneHemisphere(patch, motions.origin_from_rest);
-  for (int slot = patch.begin; slot < patch.end; slot += kLanes) {
-    Lane mean_x, mean_y, mean_z, count;
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const Scalar* sum = &observations.sums[4 * static_cast<std::size_t>(slot + lane)];
-      mean_x[lane] = sum[0];
-      mean_y[lane] = sum[1];
-      mean_z[lane] = sum[2];
-      count[lane] = sum[3];
-    }
-    const auto has_points = count > Scalar(0);
-    const Lane mask = has_points ? Lane{} + Scalar(1) : Lane{};
-    const auto observed = static_cast<int>(SumOfLanes(mask));
-    if (observed == 0) continue;
-    sums.residuals += observed;
-    const Lane inverse_count = Scalar(1) / (has_points ? count : Lane{} + Scalar(1));
-    mean_x *= inverse_count;
-    mean_y *= inverse_count;
-    mean_z *= inverse_count;
-    const auto blend = LaneBlend<Scalar>::template Of<N>(q, s.weights, slot);
-    const auto v = LaneVector<Scalar>::Load(s.posed, slot);
-    auto n = LaneVector<Scalar>::Load(s.normals, slot);
+  for (int i = 0; i < packed.rows; ++i) {
+    const SlotLanes& slots = packed.slots[i];
+    const auto [mean, mask] = MeansOf(observations, slots, packed.count_of_lane > i);
+    const auto blend = LaneBlend<Scalar>::template Of<N>(q, s.weights, slots);
+    const auto v = LaneVector<Scalar>::Load(s.posed, slots);
+    auto n = LaneVector<Scalar>::Load(s.normals, slots);
     // Vertices that no point chose have no residual: a normal of zero makes r and its row zero.
     n.x *= mask;
     n.y *= mask;
     n.z *= mask;
-    const Lane r = n.x * (v.x - mean_x) + n.y * (v.y - mean_y) + n.z * (v.z - mean_z);  // eq. 6
+    const Lane r = Dot(n, {v.x - mean.x, v.y - mean.y, v.z - mean.z});  // eq. 6
     const LaneVector<Scalar> lever = {v.x - motions.origin.x(), v.y - motions.origin.y(),
                                       v.z - motions.origin.z()};
     const LinkRow<Scalar> link_row(blend, lever, n);
     for (int k = 0; k < N; ++k)
-      link_row.Write(q[k], Load<Scalar>(s.weights[k], slot), &row[kTwistSize * k]);
+      link_row.Write(q[k], Load<Scalar>(s.weights[k], slots), &row[kTwistSize * k]);
     rows.Add(row, r, row, r);
   }
   sums.rows = rows.Sums();
+  sums.residuals = SumOfLanes(packed.count_of_lane);
 }
 
 template <class Scalar>

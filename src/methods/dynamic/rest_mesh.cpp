@@ -6,7 +6,7 @@ namespace vitruvia::dynamic {
 namespace {
 
 constexpr int kFacesPerRange = 4096;
-constexpr int kSlotsPerRange = 2048;
+constexpr int kNormalsPerRange = 2048;
 
 // Vertices one edge away, sorted.
 std::vector<std::vector<int>> Rings(std::size_t vertex_count,
@@ -78,7 +78,7 @@ void RestNormals::Update(WorkerTeam& team, Surface<float>& surface) {
       area_normals_[f].head<3>() = ab.cross(ac).array();
     }
   });
-  team.For(surface.layout.slot_count(), kSlotsPerRange, [&](int begin, int end) {
+  team.For(surface.layout.slot_count(), kNormalsPerRange, [&](int begin, int end) {
     for (int slot = begin; slot < end; ++slot) {
       if (first_face_[slot] == first_face_[slot + 1]) continue;  // filled up: never looked at
       Eigen::Array<float, 4, 1> sum = Eigen::Array<float, 4, 1>::Zero();

@@ -3,7 +3,7 @@
 namespace vitruvia::dynamic {
 namespace {
 
-constexpr int kSlotsPerRange = 1024;
+constexpr int kShapeSlotsPerRange = 1024;
 
 }  // namespace
 
@@ -13,7 +13,7 @@ ShapeStep::ShapeStep(const SurfaceLayout& layout, const std::vector<Vector3f>& r
       next_warps_(layout.slot_count(), Warp::Zero()),
       rest_(layout.slot_count(), Warp::Zero()),
       neighbors_(layout.slot_count()),
-      energies_((layout.slot_count() + kSlotsPerRange - 1) / kSlotsPerRange) {
+      energies_((layout.slot_count() + kShapeSlotsPerRange - 1) / kShapeSlotsPerRange) {
   for (int slot = 0; slot < layout.slot_count(); ++slot) {
     neighbors_[slot].fill(-1);
     const int vertex = layout.vertex_of_slot[slot];
@@ -28,8 +28,9 @@ ShapeStep::ShapeStep(const SurfaceLayout& layout, const std::vector<Vector3f>& r
 
 ShapeEnergy ShapeStep::Iterate(const Observations<float>& observations, const ShapeWeights& weights,
                                WorkerTeam& team, Surface<float>& surface) {
-  team.For(static_cast<int>(warps_.size()), kSlotsPerRange, [&](int begin, int end) {
-    energies_[begin / kSlotsPerRange] = IterateRange(begin, end, observations, weights, surface);
+  team.For(static_cast<int>(warps_.size()), kShapeSlotsPerRange, [&](int begin, int end) {
+    energies_[begin / kShapeSlotsPerRange] =
+        IterateRange(begin, end, observations, weights, surface);
   });
   warps_.swap(next_warps_);
   ShapeEnergy sum;
@@ -60,7 +61,7 @@ ShapeEnergy ShapeStep::IterateRange(int begin, int end, const Observations<float
     Warp h = weights.magnitude * warp + weights.neighbors * apart;
     Vector3f g = Vector3f::Zero();
     float residual = 0.0f;
-    if (observations.Count(slot) > 0.0f) {
+    if (observations.IsObserved(slot)) {
       residual =
           surface.normals.At(slot).dot(surface.posed.At(slot) - observations.Mean(slot));  // eq. 6
       g = surface.rest_normals.At(slot);  // R_iᵀ n_i: the normal was turned by R_i

@@ -35,7 +35,8 @@ struct ShapeEnergy {
 
 // A⁻¹ h as above.
 template <class Scalar>
-Vector3<Scalar> SolveWarp(const Vector3<Scalar>& g, const Vector3<Scalar>& h, Scalar alpha) {
+[[gnu::always_inline]] inline Vector3<Scalar> SolveWarp(const Vector3<Scalar>& g,
+                                                        const Vector3<Scalar>& h, Scalar alpha) {
   return (h - g * (g.dot(h) / (alpha + g.dot(g)))) / alpha;
 }
 
