@@ -83,14 +83,14 @@ std::optional<ChosenPerson> ChoosePerson(const std::vector<FollowedPerson>& peop
 
 MaskImage MaskOf(const OutlinedPeople& outlined, const ChosenPerson& chosen) {
   std::array<std::uint8_t, 256> value{};
-  for (const int number : chosen.numbers) value[static_cast<std::size_t>(number)] = kSubject;
+  for (const int number : chosen.numbers) value[static_cast<std::size_t>(number)] = kSubjectMask;
   const Image<std::uint8_t>& people = outlined.people;
   MaskImage mask(people.width(), people.height());
   for (std::size_t i = 0; i < mask.pixels().size(); ++i)
     mask.pixels()[i] = value[people.pixels()[i]];
   for (const int i : outlined.foreign_depth) {
     std::uint8_t& pixel = mask.pixels()[static_cast<std::size_t>(i)];
-    if (pixel != 0) pixel = kForeignDepth;
+    if (pixel != 0) pixel = kForeignDepthMask;
   }
   return mask;
 }

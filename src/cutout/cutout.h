@@ -31,8 +31,8 @@ struct ChosenPerson {
 std::optional<ChosenPerson> ChoosePerson(const std::vector<FollowedPerson>& people,
                                          const PersonSettings& settings, int at_pixel);
 
-// kSubject where the chosen person is, kForeignDepth where another depth is measured inside of the
-// person's outline (mask_png.h).
+// kSubjectMask where the chosen person is, kForeignDepthMask where another depth is measured inside
+// of the person's outline (mask_png.h).
 MaskImage MaskOf(const OutlinedPeople& people, const ChosenPerson& chosen);
 
 struct UnsureFrame {

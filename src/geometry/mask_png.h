@@ -1,5 +1,5 @@
-// 8-bit PNG masks: 0 = not the subject, anything else = the subject; kForeignDepth = the subject,
-// but the pixel holds the depth of something else.
+// 8-bit PNG masks: 0 = not the subject, anything else = the subject; kForeignDepthMask = the
+// subject, but the pixel holds the depth of something else.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace vitruvia {
 
-inline constexpr std::uint8_t kSubject = 255, kForeignDepth = 128;
+inline constexpr std::uint8_t kSubjectMask = 255, kForeignDepthMask = 128;
 
 // DataError if the file is missing, damaged (also when cut short), not 8-bit single-channel, or not
 // of the expected size.

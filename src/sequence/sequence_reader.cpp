@@ -73,7 +73,7 @@ void CheckVerticesSize(const fs::path& file, int frames, const TriangleMesh& mes
 void ApplyMask(const MaskImage& mask, DepthImage& depth) {
   for (std::size_t i = 0; i < mask.pixels().size(); ++i) {
     const std::uint8_t value = mask.pixels()[i];
-    if (value == 0 || value == kForeignDepth) depth.pixels()[i] = 0.0f;
+    if (value == 0 || value == kForeignDepthMask) depth.pixels()[i] = 0.0f;
   }
 }
 

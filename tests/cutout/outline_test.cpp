@@ -144,10 +144,10 @@ TEST(SmoothOutlines, NamesPixelsThatHoldAnotherDepthThanThePersons) {
   for (const int down : {0, 10, 20, 30}) EXPECT_EQ(cut.smoothed.people(u, v + down), 1) << down;
   EXPECT_THAT(cut.smoothed.foreign_depth, ElementsAre(v * kWidth + u, (v + 10) * kWidth + u));
   const MaskImage mask = MaskOf(cut.smoothed, ChosenPerson{{1}});
-  EXPECT_EQ(mask(u, v), kForeignDepth);
-  EXPECT_EQ(mask(u, v + 10), kForeignDepth);
-  EXPECT_EQ(mask(u, v + 20), kSubject);
-  EXPECT_EQ(mask(u, v + 30), kSubject);
+  EXPECT_EQ(mask(u, v), kForeignDepthMask);
+  EXPECT_EQ(mask(u, v + 10), kForeignDepthMask);
+  EXPECT_EQ(mask(u, v + 20), kSubjectMask);
+  EXPECT_EQ(mask(u, v + 30), kSubjectMask);
   EXPECT_EQ(mask(5, 5), 0);
   EXPECT_EQ(MaskOf(cut.smoothed, ChosenPerson{{2}})(u, v), 0);
 }

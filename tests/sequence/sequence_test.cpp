@@ -126,7 +126,7 @@ TEST_F(Sequence, HidesWhatTheMaskCallsBackground) {
   MaskImage mask(16, 12, 255);
   mask(5, 7) = 0;
   mask(6, 7) = 1;
-  mask(7, 7) = kForeignDepth;  // inside of the outline, with the depth of the background
+  mask(7, 7) = kForeignDepthMask;  // inside of the outline, with the depth of the background
   for (int i = 0; i < kFrames; ++i) {
     WriteMaskPng(folder_ / fmt::format("mask/00000{}.png", i), mask);
   }
