@@ -90,8 +90,9 @@ std::string Explain(const std::string& key) {
   std::vector<std::string> names;
   for (const ExplainedSetting& setting : AllSettings()) {
     const std::string& name = setting.field.key;
-    if (Matches(name, key)) text += Paragraph(setting);
+    if (Matches(name, key) || setting.sweep_path == key) text += Paragraph(setting);
     names.push_back(name);
+    names.push_back(setting.sweep_path);
     names.push_back(name.substr(name.rfind('.') + 1));
   }
   for (const Metric& metric : AllMetrics()) names.push_back(metric.key);
@@ -160,7 +161,8 @@ void AddExplainCommand(CLI::App& app) {
   CLI::App* explain =
       app.add_subcommand("explain", "Explain a setting or a metric; without KEY list all");
   CLI::Option* key = explain->add_option(
-      "KEY", a->key, "a setting's key or the beginning of one, or a metric's key");
+      "KEY", a->key,
+      "a setting's key or the beginning of one, a path that a sweep varies, or a metric's key");
   CLI::Option* search =
       explain->add_option("--search", a->words, "settings and metrics whose text has all WORDS")
           ->type_name("WORDS")

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "experiments/cli/experiment_folder.h"
 #include "experiments/cli/problems.h"
+#include "experiments/run/tracking_run.h"
 #include "records/run_record.h"
 #include "reports/export/gltf_export.h"
 #include "reports/export/joint_export.h"
@@ -39,8 +40,11 @@ std::pair<fs::path, int> ExportRun(const fs::path& experiment, const std::string
               ExportMeshes(experiment, run_id, frames, folder / "meshes")};
     case Format::kGlb:
       return {folder / "run.glb", ExportGltf(experiment, run_id, frames, folder / "run.glb")};
-    case Format::kBvh:
-      return {folder / "joints.bvh", ExportBvh(experiment, run_id, folder / "joints.bvh")};
+    case Format::kBvh: {
+      const ExportedRun run = OpenForExport(experiment, run_id, {});
+      const BodyModel subject = TrackedSubject(ReadPlannedRun(folder), run.sequence);
+      return {folder / "joints.bvh", ExportBvh(run, subject, folder / "joints.bvh")};
+    }
     case Format::kCsv:
       return {folder / "joints.csv",
               ExportJointTable(experiment, run_id, frames, folder / "joints.csv")};

@@ -72,10 +72,13 @@ void AddViewCommand(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("view", "Write a page that shows runs synchronously in three dimensions");
   command
-      ->add_option("RUN", a->runs,
-                   "folders of runs, EXPERIMENT/RUN_ID; or an experiment's folder: all its runs")
+      ->add_option(
+          "RUN", a->runs,
+          "folders of runs, EXPERIMENT/RUN_ID, for one page; or an experiment's folder alone: a "
+          "page for each of its runs")
       ->required();
-  command->add_option("-o,--output", a->page, "the page; default for a single run: RUN/view.html");
+  command->add_option("-o,--output", a->page,
+                      "the page, of folders of runs; default for a single run: RUN/view.html");
   command
       ->add_option("--frames", a->limits.most_frames,
                    "maximum number of frames with surfaces and depth; further frames have only "

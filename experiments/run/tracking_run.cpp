@@ -55,11 +55,17 @@ std::vector<std::string> WarningsOf(const RunPlan& run, const SequenceReader& se
   return warnings;
 }
 
-BodyModel ObtainSubject(const RunPlan& run, const SequenceReader& sequence,
-                        const WorkFolders& work) {
+BodyModel UndamagedSubject(const RunPlan& run, const SequenceReader& sequence,
+                           const WorkFolders& work) {
   if (run.subject) return ObtainFittedSubject(*run.subject, run.scene_settings, work.learned);
   if (!run.subject_folder.empty()) return ReadBodyModel(run.subject_folder);
   return sequence.subject();
+}
+
+BodyModel SubjectOf(const RunPlan& run, const SequenceReader& sequence, const WorkFolders& work) {
+  BodyModel subject = UndamagedSubject(run, sequence, work);
+  DamageSubject(run.faults.subject, subject);
+  return subject;
 }
 
 // True joints in the order of the bones; DataError if the sequence does not hold all of them.
@@ -82,8 +88,7 @@ std::vector<Vector3d> JointsOfBones(const SequenceReader& sequence, int frame) {
 
 void Track(const RunPlan& run, const SequenceReader& sequence, const WorkFolders& work,
            const fs::path& estimate_folder) {
-  BodyModel subject = ObtainSubject(run, sequence, work);
-  DamageSubject(run.faults.subject, subject);
+  const BodyModel subject = SubjectOf(run, sequence, work);
   const DepthFaultSettings& faults = run.faults.depth;
   FaultContext context{sequence.info().depth_unit_m, run.seed, sequence.info().camera};
   const auto damage = [&](DepthFrame& frame) {
@@ -166,6 +171,10 @@ void TrackSequence(const SequenceReader& sequence, const PinholeCamera& camera,
     progress.Advance();
   }
   writer.Finish(std::max(0.0, PeakMemory_mb() - before_mb));
+}
+
+BodyModel TrackedSubject(const PlannedRun& planned, const SequenceReader& sequence) {
+  return SubjectOf(ReadRunPlan(planned), sequence, planned.work);
 }
 
 RunRecord CarryOutTracking(const PlannedRun& planned, const fs::path& run_folder) {

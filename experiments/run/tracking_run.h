@@ -18,6 +18,10 @@ void TrackSequence(const SequenceReader& sequence, const PinholeCamera& camera,
                    const std::function<void(DepthFrame&)>& prepare,
                    const std::filesystem::path& folder);
 
+// The subject that the tracker of a run got: its variant's, else the sequence's. DataError if there
+// is none, or it is no longer where the run found it.
+BodyModel TrackedSubject(const PlannedRun& planned, const SequenceReader& sequence);
+
 // Carries out the run: estimate and log go to the run's folder, the record is returned. A sequence
 // or a fitted subject that other runs need too is made at most once.
 RunRecord CarryOutTracking(const PlannedRun& planned, const std::filesystem::path& run_folder);

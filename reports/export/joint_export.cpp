@@ -9,7 +9,6 @@
 #include "body/skeleton.h"
 #include "core/error.h"
 #include "core/files.h"
-#include "reports/export/exported_run.h"
 #include "scoring/bone_placement.h"
 
 namespace vitruvia {
@@ -116,9 +115,7 @@ int ExportJointTable(const fs::path& experiment_folder, const std::string& run_i
   return static_cast<int>(run.frames.size());
 }
 
-int ExportBvh(const fs::path& experiment_folder, const std::string& run_id, const fs::path& file) {
-  const ExportedRun run = OpenForExport(experiment_folder, run_id, {});
-  const BodyModel& subject = run.sequence.subject();
+int ExportBvh(const ExportedRun& run, const BodyModel& subject, const fs::path& file) {
   const BonePlacement bones(run.estimate.rest_mesh().vertices, subject);
   std::vector<int> order;
   std::string text = "HIERARCHY\n" + HierarchyText(subject.skeleton, 0, "", order);

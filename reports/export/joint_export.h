@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "body/body_model.h"
+#include "reports/export/exported_run.h"
+
 namespace vitruvia {
 
 // A table with one row for each frame and joint: frame,time_s,joint,x_m,y_m,z_m of the estimate;
@@ -15,9 +18,8 @@ int ExportJointTable(const std::filesystem::path& experiment_folder, const std::
 
 // The estimated motion in Biovision's format, all frames: centimetres, y up, z towards the camera.
 // Every joint has position channels, since bones of an estimate need not keep their lengths. How
-// each bone is turned is fitted to the surface (scoring/bone_placement.h). DataError if the
-// sequence has no subject, whose skeleton and weights are needed.
-int ExportBvh(const std::filesystem::path& experiment_folder, const std::string& run_id,
-              const std::filesystem::path& file);
+// each bone is turned is fitted to the surface (scoring/bone_placement.h). `subject`: the one that
+// was tracked.
+int ExportBvh(const ExportedRun& run, const BodyModel& subject, const std::filesystem::path& file);
 
 }  // namespace vitruvia

@@ -341,13 +341,13 @@ class Reader final : public Fields {
   }
 
   int CheckedInteger(const Place& place, const Json& json, const About& about) const {
-    if (!json.is_number_integer()) Reject(place, json, Expected("a whole number", about));
+    if (!json.is_number()) Reject(place, json, Expected("a whole number", about));
     const double value = json.get<double>();
-    if (!(value >= std::max(about.min, -2147483648.0) &&
-          value <= std::min(about.max, 2147483647.0))) {
+    if (std::trunc(value) != value || !(value >= std::max(about.min, -2147483648.0) &&
+                                        value <= std::min(about.max, 2147483647.0))) {
       Reject(place, json, Expected("a whole number", about));
     }
-    return json.get<int>();
+    return static_cast<int>(value);
   }
 
   void RejectUnknownKeys(const Level& level) {

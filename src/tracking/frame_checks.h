@@ -1,7 +1,11 @@
 // Checks of a frame that all trackers make, and their settings.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "config/settings.h"
+#include "geometry/point_cloud.h"
 #include "tracking/tracker.h"
 
 namespace vitruvia {
@@ -14,6 +18,20 @@ void CheckFrameSize(const DepthFrame& frame, const PinholeCamera& camera);
 void DescribeMaxDepth(Fields& fields, double& max_depth_m);
 // The setting lost_below of trackers that judge a frame by its agreement (agreement.h).
 void DescribeLostBelow(Fields& fields, double& lost_below);
+
+// The setting least_points of trackers that do not fit a frame with too few points.
+inline constexpr int kLeastPoints = 17;
+void DescribeLeastPoints(Fields& fields, int& least_points);
+
+// Outcome and message of a frame that is not fitted.
+struct UnfittedFrame {
+  Outcome outcome;
+  std::string message;
+};
+// Nothing if the cloud, which was taken from the depth image, has at least `least_points` points.
+// kNoData only if the whole image holds no measurement, for the cloud may skip pixels.
+std::optional<UnfittedFrame> CheckPoints(const PointCloud& cloud, const DepthImage& depth,
+                                         double max_depth_m, int least_points);
 
 // Message of a frame without a measurement.
 inline constexpr const char* kNoMeasurement =

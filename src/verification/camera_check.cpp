@@ -23,8 +23,8 @@ double ResolutionOfCenter(const PinholeCamera& c) {
   return kx > 0.0 && ky > 0.0 && IsNear(kx, ky) ? kx : 0.0;
 }
 
-bool IsInside(double center, int size) {
-  return center > kPrincipalPointMargin * size && center < (1.0 - kPrincipalPointMargin) * size;
+bool IsNearCenter(double principal, int size) {
+  return std::abs(principal - (size - 1) / 2.0) < (0.5 - kPrincipalPointMargin) * size;
 }
 
 std::string CenterCause(const PinholeCamera& c) {
@@ -57,7 +57,7 @@ Findings CheckCamera(const PinholeCamera& c) {
         "sequence.json: camera: fx {:g} and fy {:g} differ by more than a factor of {:g}; is one "
         "of another resolution?",
         c.fx, c.fy, kLargestPixelAspect));
-  if (!IsInside(c.cx, c.width) || !IsInside(c.cy, c.height))
+  if (!IsNearCenter(c.cx, c.width) || !IsNearCenter(c.cy, c.height))
     findings.push_back(Warning(
         "sequence.json: camera: the principal point ({:g}, {:g}) is far from the centre ({:g}, "
         "{:g}) of an image of {}{}",

@@ -85,6 +85,15 @@ TEST(ReadSettings, NamesFilePathValueExpectationAndNearestKey) {
   EXPECT_EQ(MessageOf("[]"), "car.json: expected an object, got []");
 }
 
+TEST(ReadSettings, TakesAWholeNumberThatIsWrittenWithAFraction) {
+  EXPECT_EQ(Read(R"({"doors": 2.0})").doors, 2);
+  EXPECT_EQ(Read(R"({"doors": 2e0})").doors, 2);
+  EXPECT_EQ(MessageOf(R"({"doors": 7.0})"),
+            "car.json: doors: expected a whole number in 0 … 6, got 7.0");
+  EXPECT_EQ(MessageOf(R"({"doors": 1e300})"),
+            "car.json: doors: expected a whole number in 0 … 6, got 1e+300");
+}
+
 TEST(WriteSettings, IsReadBackAsWritten) {
   const Car car = Read(R"({"doors": 2, "colour": "blue", "wheels": [{"radius": 0.4}, {}]})");
   const Json json = WriteSettings(car);

@@ -68,6 +68,38 @@ TEST(Dynamic, CarriesPoseAndShapeOverAnEmptyFrameAndGoesOn) {
   EXPECT_LT(stage.MeanError(after, 0.0), 0.01);
 }
 
+DepthFrame FrameOfPoints(int count) {
+  DepthFrame frame{1, 1 / 30.0, DepthImage(320, 240)};
+  for (int i = 0; i < count; ++i) frame.depth(150 + i, 120) = 2.8f;
+  return frame;
+}
+
+TEST(Dynamic, SaysLostWhenAFrameHasTooFewPoints) {
+  FrameStage stage;
+  Dynamic tracker(Settings{}, HumanSkeleton());
+  tracker.Start(stage.body, stage.camera);
+  const TrackResult first = tracker.TrackFrame(FrameOfPoints(1));
+  EXPECT_EQ(first.outcome, Outcome::kLost);
+  EXPECT_THAT(first.message, testing::HasSubstr("1 point, too few to fix a pose"));
+  const TrackResult before = tracker.TrackFrame(stage.Frame(0, 0.0));
+  EXPECT_FALSE(IsFailure(before.outcome)) << before.message;
+  EXPECT_LT(stage.MeanError(before, 0.0), 0.01);
+  const TrackResult few = tracker.TrackFrame(FrameOfPoints(kLeastPoints - 1));
+  EXPECT_EQ(few.outcome, Outcome::kLost);
+  EXPECT_EQ(few.vertices, before.vertices);
+  EXPECT_GT(tracker.TrackFrame(FrameOfPoints(kLeastPoints)).iterations, 0);
+}
+
+TEST(Dynamic, FitsFramesOfAsFewPointsAsItsSettingSays) {
+  FrameStage stage;
+  Settings settings;
+  settings.least_points = 1;
+  Dynamic tracker(settings, HumanSkeleton());
+  tracker.Start(stage.body, stage.camera);
+  tracker.TrackFrame(stage.Frame(0, 0.0));
+  EXPECT_GT(tracker.TrackFrame(FrameOfPoints(1)).iterations, 0);
+}
+
 // The body turns by 180 degrees about its own vertical from one frame to the next.
 double ErrorAfterAHalfTurn(double margin_m) {
   const Rigidd half_turn{Vector3d(-1, 1, -1).asDiagonal().toDenseMatrix(), Vector3d::Zero()};

@@ -283,6 +283,12 @@ TEST_F(CommandLine, ExplainSaysWhatToPasteIntoASweep) {
     EXPECT_THAT(Call({"explain", key}).out, Not(HasSubstr("sweep:"))) << key;
 }
 
+TEST_F(CommandLine, ExplainTakesThePathThatItPrintsForASweep) {
+  const CallResult outcome = Call({"explain", "method.settings.fit.pixel_sharing"});
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_THAT(outcome.out, HasSubstr("realtime_scape.fit.pixel_sharing\n"));
+}
+
 TEST_F(CommandLine, APathThatExplainNamesCanBeSwept) {
   Json experiment = Experiment();
   experiment["sweep"] = {

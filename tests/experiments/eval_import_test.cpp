@@ -131,6 +131,21 @@ TEST_F(EvalImporter, ATrackerScoresTheSameOnTheImportedSequence) {
   EXPECT_THAT(again.out, HasSubstr("2 runs scored again, 0 changed")) << again.error;
 }
 
+// The imported sequence has no subject of its own.
+TEST_F(EvalImporter, TheMotionIsExportedWithTheSubjectOfTheVariant) {
+  const Json given = {{"name", "given"}, {"subject", "original/subject"}};
+  ASSERT_EQ(Import().code, 0);
+  files_.Write("given.json", {{"title", "Imported"},
+                              {"sequences", {"imported"}},
+                              {"methods", {"method.json"}},
+                              {"variants", {given}}});
+  const CallResult run = CallVitruvia({"run", files_.File("given.json"), "-o", files_.File("out")});
+  ASSERT_EQ(run.code, 0) << run.error;
+  const CallResult call = CallVitruvia({"export", files_.File("out"), "--as", "bvh"});
+  EXPECT_EQ(call.code, 0) << call.error;
+  EXPECT_THAT(call.out, HasSubstr(fmt::format("joints.bvh: {} frames", kWavingFrames)));
+}
+
 TEST_F(EvalImporter, JointsThatAreHiddenFromTheRecordingAreNotScored) {
   constexpr int kHidden = 4;  // the head
   frames_[2].joints[kHidden].place = {0.0f, 0.0f, 0.0f};

@@ -157,6 +157,7 @@ TEST_F(Rescore, ADamagedSequenceIsToldWithItsRemedy) {
 TEST_F(Rescore, OnePageOfAnExperimentsFolderIsRefused) {
   ExpectRefusal({"view", out_.string(), "-o", files_.File("page.html")},
                 ExitCode::kBadConfiguration, {"is an experiment's folder", "RUN_ID"});
+  EXPECT_THAT(CallVitruvia({"view", "--help"}).out, HasSubstr("folder alone"));
 }
 
 TEST_F(Rescore, ExportWritesMeshesAndRefusesFramesThatAreNotThere) {

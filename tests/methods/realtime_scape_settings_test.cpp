@@ -189,6 +189,7 @@ const std::map<std::string, Change>& Changes() {
       {"watch.found_below", {0.5, watch}},
       {"watch.reach_m", {0.01, watch}},
       {"lost_below", {1.0}},
+      {"least_points", {100000}},
   };
   return changes;
 }

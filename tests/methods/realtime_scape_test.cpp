@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
@@ -28,6 +29,23 @@ TEST(RealtimeScape, FollowsAMovingArm) {
     const TrackResult result = tracker.TrackFrame(stage.Frame(i, angle));
     EXPECT_FALSE(IsFailure(result.outcome)) << result.message;
     EXPECT_LT(stage.MeanError(result, angle), 0.01) << "frame " << i;
+  }
+}
+
+// The cloud reads every second row and column: of one pixel it reads all or nothing.
+TEST(RealtimeScape, SaysLostWhenAFrameHasTooFewPoints) {
+  Stage stage;
+  RealtimeScape tracker{Settings{}};
+  tracker.Start(stage.body, stage.camera);
+  const TrackResult before = tracker.TrackFrame(stage.Frame(0, 0.0));
+  for (const int column : {160, 161}) {
+    DepthFrame frame{1, 1 / 30.0, DepthImage(320, 240)};
+    frame.depth(column, 120) = 2.8f;
+    const TrackResult few = tracker.TrackFrame(frame);
+    EXPECT_EQ(few.outcome, Outcome::kLost);
+    EXPECT_THAT(few.message, testing::HasSubstr(column == 160 ? "1 point, too few to fix a pose"
+                                                              : "0 points, too few"));
+    EXPECT_EQ(few.vertices, before.vertices);
   }
 }
 

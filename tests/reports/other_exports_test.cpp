@@ -127,7 +127,8 @@ TEST_F(OtherExports, GltfIsDrawnByF3d) {
 
 TEST_F(OtherExports, BvhHoldsEveryJointToAMillimetre) {
   const fs::path file = folder_ / "joints.bvh";
-  EXPECT_EQ(ExportBvh(experiment_, kWavingRun, file), kSyntheticFrames);
+  EXPECT_EQ(ExportBvh(OpenForExport(experiment_, kWavingRun, {}), sequence_.subject(), file),
+            kSyntheticFrames);
   const MocapClip clip = ReadBvh(file);
   ASSERT_EQ(clip.frames.size(), std::size_t{kSyntheticFrames});
   EXPECT_NEAR(clip.frame_s, 1.0 / 30.0, 1e-6);
@@ -148,7 +149,7 @@ TEST_F(OtherExports, BvhHoldsEveryJointToAMillimetre) {
 // The end of the forearm follows from how the bone is turned, not from a position channel.
 TEST_F(OtherExports, BvhTurnsBonesAsTheSurfaceTurns) {
   const fs::path file = folder_ / "joints.bvh";
-  ExportBvh(experiment_, kWavingRun, file);
+  ExportBvh(OpenForExport(experiment_, kWavingRun, {}), sequence_.subject(), file);
   const MocapClip clip = ReadBvh(file);
   const Skeleton& skeleton = sequence_.subject().skeleton;
   const int elbow = FindBone("left_forearm"), wrist = FindBone("left_hand");

@@ -14,6 +14,7 @@
 #include "geometry/mesh_io.h"
 #include "support/small_recording.h"
 #include "support/temporary_folder.h"
+#include "verification/checks.h"
 #include "verification/rest_mesh_check.h"
 
 namespace vitruvia {
@@ -166,6 +167,26 @@ TEST_F(Verification, CamerasOfAnotherResolutionAreNamed) {
     json["camera"]["cy"] = 71.5;
   });
   Expect(Severity::kError, {"the intrinsics are of another resolution", "fx 85"});
+}
+
+TEST(CheckCamera, TheCentreOfAnImageOfAnySizeIsInItsMiddle) {
+  const auto says_far = [](const PinholeCamera& camera) {
+    const Findings findings = CheckCamera(camera);
+    return std::any_of(findings.begin(), findings.end(), [](const Finding& f) {
+      return f.text.find("far from the centre") != std::string::npos;
+    });
+  };
+  for (const auto& [width, height] : {std::pair{1, 1}, {1, 120}, {160, 1}, {160, 120}}) {
+    PinholeCamera camera;
+    camera.width = width;
+    camera.height = height;
+    camera.fx = camera.fy = 142.5;
+    camera.cx = (width - 1) / 2.0;
+    camera.cy = (height - 1) / 2.0;
+    EXPECT_FALSE(says_far(camera)) << width << "×" << height;
+    camera.cx += 0.3 * width;
+    EXPECT_TRUE(says_far(camera)) << width << "×" << height;
+  }
 }
 
 TEST_F(Verification, FieldsOfViewThatNoCameraHasAreNamed) {

@@ -140,8 +140,9 @@ struct Dynamic::Session {
 
 // Result of fitting one frame.
 struct Dynamic::FrameFit {
-  int iterations = 0;  // of the pose
-  bool solved = true;  // by all iterations
+  std::optional<UnfittedFrame> unfitted{};  // why the frame was not fitted
+  int iterations = 0;                       // of the pose
+  bool solved = true;                       // by all iterations
   bool converged = false;
   double matched_share = 0.0;  // share of the points that found a vertex, in the best iteration
   double condition = -1.0;     // of the last iteration
@@ -165,8 +166,10 @@ TrackResult Dynamic::TrackFrame(const DepthFrame& frame) {
   Require(session_ != nullptr, "TrackFrame called before Start");
   ReadClouds(frame);
   FrameFit fit;
+  fit.unfitted =
+      CheckPoints(session_->fine.cloud, frame.depth, settings_.max_depth_m, settings_.least_points);
   const bool is_first = !session_->placed;
-  if (!session_->fine.cloud.points.empty()) {
+  if (!fit.unfitted) {
     if (is_first) FindFirstPose(frame);
     if (session_->placed) {
       fit = FitPose(is_first);
@@ -458,9 +461,9 @@ TrackResult Dynamic::Result(const FrameFit& fit) {
 }
 
 void Dynamic::ReportOutcome(const FrameFit& fit, TrackResult& result) const {
-  if (session_->fine.cloud.points.empty()) {
-    result.outcome = Outcome::kNoData;
-    result.message = "the frame holds no measurement; pose and shape are carried over";
+  if (fit.unfitted) {
+    result.outcome = fit.unfitted->outcome;
+    result.message = fit.unfitted->message;
   } else if (!session_->placed) {
     result.outcome = Outcome::kLost;
     result.message = session_->start_message;

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "tracking/frame_checks.h"
-
 namespace vitruvia::dynamic {
 
 void AssociationSettings::Describe(Fields& f) {
@@ -214,6 +212,7 @@ void Settings::Describe(Fields& f) {
             .max = 1,
             .origin = Origin::kGuessed,
             .source = "paper B is silent"});
+  DescribeLeastPoints(f, least_points);
   f.Integer("threads", threads,
             {.meaning = "threads that a frame is computed on; the result does not depend on it",
              .min = 1,

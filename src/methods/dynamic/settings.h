@@ -7,6 +7,7 @@
 #include "config/settings.h"
 #include "tracking/area_watch.h"
 #include "tracking/facing.h"
+#include "tracking/frame_checks.h"
 #include "tracking/joint_uncertainty.h"
 #include "tracking/start_search.h"
 
@@ -73,6 +74,7 @@ struct Settings {
   UncertaintySettings uncertainty;
   double max_depth_m = 8.0;
   double lost_below = 0.3;
+  int least_points = kLeastPoints;
   int threads = 2;
   void Describe(Fields& fields);
 };

@@ -1,7 +1,5 @@
 #include "methods/realtime_scape/settings.h"
 
-#include "tracking/frame_checks.h"
-
 namespace vitruvia::realtime_scape {
 
 void CloudSettings::Describe(Fields& f) {
@@ -209,6 +207,7 @@ void Settings::Describe(Fields& f) {
   f.Section("uncertainty", uncertainty,
             {.meaning = "covariances of the joints, from the normal equations"});
   DescribeLostBelow(f, lost_below);
+  DescribeLeastPoints(f, least_points);
 }
 
 void Settings::DescribeEnergy(Fields& f) {

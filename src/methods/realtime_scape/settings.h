@@ -10,6 +10,7 @@
 #include "tracking/classification.h"
 #include "tracking/depth_noise.h"
 #include "tracking/facing.h"
+#include "tracking/frame_checks.h"
 #include "tracking/joint_uncertainty.h"
 #include "tracking/placement.h"
 #include "tracking/relocalization_settings.h"
@@ -174,6 +175,7 @@ struct Settings {
   AreaWatchSettings watch;
   UncertaintySettings uncertainty;
   double lost_below = 0.3;
+  int least_points = kLeastPoints;
   void Describe(Fields& fields);
 
  private:

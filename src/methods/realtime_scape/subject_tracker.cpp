@@ -53,8 +53,9 @@ TrackResult SubjectTracker::TrackFrame(const DepthFrame& frame) {
   CheckFrameSize(frame, camera_);
   clock_.Restart();
   const Observation& observation = observer_.Observe(frame.depth);
-  if (observation.cloud.points.empty()) {
-    return CarryOver({Outcome::kNoData, kNoMeasurement});
+  if (std::optional<UnfittedFrame> unfitted = CheckPoints(
+          observation.cloud, frame.depth, settings_.cloud.max_depth_m, settings_.least_points)) {
+    return CarryOver({unfitted->outcome, std::move(unfitted->message)});
   }
   const bool is_first = !history_;
   if (is_first) history_ = FirstPose(observation, frame.known);
