@@ -273,9 +273,22 @@ std::vector<PlannedRun> PlannedRuns(const ExperimentPlan& plan, const WorkFolder
   return runs;
 }
 
-RunPlan ReadRunPlan(const PlannedRun& planned) {
+RunPlan ReadSubjectPlan(const PlannedRun& planned) {
   const Json& resolved = planned.resolved;
   RunPlan run;
+  if (resolved.contains("scene"))
+    run.scene_settings = ReadResolved<SceneSettings>(resolved, "scene");
+  if (resolved.contains("subject_folder"))
+    run.subject_folder = resolved["subject_folder"].get<std::string>();
+  if (resolved.contains("subject")) run.subject = ReadResolvedRecipe(resolved["subject"]);
+  if (resolved.contains("faults"))
+    run.faults = ReadResolved<InputFaultSettings>(resolved, "faults");
+  return run;
+}
+
+RunPlan ReadRunPlan(const PlannedRun& planned) {
+  const Json& resolved = planned.resolved;
+  RunPlan run = ReadSubjectPlan(planned);
   run.run_id = planned.run_id;
   run.variant = planned.variant;
   run.scene = planned.scene;
@@ -287,13 +300,6 @@ RunPlan ReadRunPlan(const PlannedRun& planned) {
   run.method = ReadMethodConfig(resolved.at("method"), ResolvedOrigin("method"));
   run.score = ReadResolved<ScoreSettings>(resolved, "score");
   if (resolved.contains("sequence")) run.sequence = resolved["sequence"].get<std::string>();
-  if (resolved.contains("scene"))
-    run.scene_settings = ReadResolved<SceneSettings>(resolved, "scene");
-  if (resolved.contains("subject_folder"))
-    run.subject_folder = resolved["subject_folder"].get<std::string>();
-  if (resolved.contains("subject")) run.subject = ReadResolvedRecipe(resolved["subject"]);
-  if (resolved.contains("faults"))
-    run.faults = ReadResolved<InputFaultSettings>(resolved, "faults");
   return run;
 }
 

@@ -52,6 +52,8 @@ ExperimentPlan PlanExperiment(const ExperimentSettings& settings,
 std::vector<PlannedRun> PlannedRuns(const ExperimentPlan& plan, const WorkFolders& work);
 // The inverse of PlannedRuns for one run.
 RunPlan ReadRunPlan(const PlannedRun& planned);
+// Only what the subject depends on: the method may have had other settings when the run was made.
+RunPlan ReadSubjectPlan(const PlannedRun& planned);
 
 // The sequence of the run's scene, made at most once below `cache`.
 CachedFolder SequenceOf(const RunPlan& run, const std::filesystem::path& cache);

@@ -174,7 +174,7 @@ void TrackSequence(const SequenceReader& sequence, const PinholeCamera& camera,
 }
 
 BodyModel TrackedSubject(const PlannedRun& planned, const SequenceReader& sequence) {
-  return SubjectOf(ReadRunPlan(planned), sequence, planned.work);
+  return SubjectOf(ReadSubjectPlan(planned), sequence, planned.work);
 }
 
 RunRecord CarryOutTracking(const PlannedRun& planned, const fs::path& run_folder) {

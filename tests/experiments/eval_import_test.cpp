@@ -131,7 +131,8 @@ TEST_F(EvalImporter, ATrackerScoresTheSameOnTheImportedSequence) {
   EXPECT_THAT(again.out, HasSubstr("2 runs scored again, 0 changed")) << again.error;
 }
 
-// The imported sequence has no subject of its own.
+// The imported sequence has no subject of its own. The run may be of an older version, whose
+// methods had other settings.
 TEST_F(EvalImporter, TheMotionIsExportedWithTheSubjectOfTheVariant) {
   const Json given = {{"name", "given"}, {"subject", "original/subject"}};
   ASSERT_EQ(Import().code, 0);
@@ -141,6 +142,12 @@ TEST_F(EvalImporter, TheMotionIsExportedWithTheSubjectOfTheVariant) {
                               {"variants", {given}}});
   const CallResult run = CallVitruvia({"run", files_.File("given.json"), "-o", files_.File("out")});
   ASSERT_EQ(run.code, 0) << run.error;
+  const Json summary = ReadJsonFile(files_ / "out/summary.json");
+  const fs::path plan =
+      files_ / "out" / summary["rows"][0]["run_id"].get<std::string>() / "run.json";
+  Json older = ReadJsonFile(plan);
+  older["resolved"]["method"]["settings"]["no_setting_any_more"] = 1;
+  WriteWholeFile(plan, older.dump());
   const CallResult call = CallVitruvia({"export", files_.File("out"), "--as", "bvh"});
   EXPECT_EQ(call.code, 0) << call.error;
   EXPECT_THAT(call.out, HasSubstr(fmt::format("joints.bvh: {} frames", kWavingFrames)));
