@@ -50,8 +50,7 @@ void ImportEval(const ImportArguments& a) {
 void PrintRoom(const Room& room) {
   if (const auto& floor = room.floor) {
     fmt::print("floor: {:.2f} m under the camera, {:.0f} % of the points, tilted {:.1f} degrees\n",
-               floor->height_m, 100.0 * floor->share,
-               std::acos(std::min(1.0f, -floor->up.y())) * 180.0 / std::numbers::pi);
+               floor->height_m, 100.0 * floor->share, floor->TiltDegrees());
   } else {
     fmt::print("floor: none found; nothing was removed for it\n");
   }

@@ -95,6 +95,16 @@ MaskImage MaskOf(const OutlinedPeople& outlined, const ChosenPerson& chosen) {
   return mask;
 }
 
+void CutoutReport::AddUnsure(int frame, const std::string& why) {
+  const auto at =
+      std::lower_bound(unsure.begin(), unsure.end(), frame,
+                       [](const UnsureFrame& other, int number) { return other.frame < number; });
+  if (at == unsure.end() || at->frame != frame)
+    unsure.insert(at, {frame, why});
+  else
+    at->why += "; " + why;
+}
+
 CutoutReport ReportCutout(const std::vector<FollowedPerson>& people, const ChosenPerson& chosen,
                           const std::vector<double>& pixel_shares,
                           const FollowingSettings& settings) {

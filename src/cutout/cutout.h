@@ -44,9 +44,11 @@ struct UnsureFrame {
 struct CutoutReport {
   int frames = 0, frames_without_person = 0;
   int area_jumps = 0;
-  double pixel_share = 0.0;  // of the image; mean over the frames that contain the person
-  double area_m2 = 0.0;      // median
-  std::vector<UnsureFrame> unsure;
+  double pixel_share = 0.0;         // of the image; mean over the frames that contain the person
+  double area_m2 = 0.0;             // median
+  std::vector<UnsureFrame> unsure;  // in ascending order, each once
+
+  void AddUnsure(int frame, const std::string& why);
 };
 
 // `pixel_shares`: of each frame's mask.

@@ -6,6 +6,8 @@
 #include <functional>
 #include <numeric>
 
+#include <opencv2/imgproc.hpp>
+
 namespace vitruvia {
 namespace {
 
@@ -75,6 +77,44 @@ Layer Blurred(const Layer& layer, const std::vector<float>& kernel) {
   return both;
 }
 
+// Grows a part by so many pixels within another one.
+cv::Mat Grown(const cv::Mat& part, const cv::Mat& within, int steps) {
+  cv::Mat grown = part.clone();
+  for (int i = 0; i < steps; ++i) {
+    cv::dilate(grown, grown, cv::Mat());  // 3×3
+    cv::bitwise_and(grown, within, grown);
+  }
+  return grown;
+}
+
+// Drops parts that are shorter than `least_px` along rows and columns; those that are a pixel
+// apart count as one.
+void DropShort(int least_px, cv::Mat& parts) {
+  cv::Mat wider, labels, stats, centers;
+  cv::dilate(parts, wider, cv::Mat());  // 3×3
+  cv::connectedComponentsWithStats(wider, labels, stats, centers);
+  for (int v = 0; v < parts.rows; ++v) {
+    for (int u = 0; u < parts.cols; ++u) {
+      const int* box = stats.ptr<int>(labels.at<int>(v, u));
+      if (std::max(box[cv::CC_STAT_WIDTH], box[cv::CC_STAT_HEIGHT]) < least_px + 2)
+        parts.at<std::uint8_t>(v, u) = 0;
+    }
+  }
+}
+
+// What is thinner than `reach_px`, at least twice as long and leads farther than it away from
+// thicker parts, such as an arm at a low resolution, as 255; the roughness of an edge does not.
+MaskImage ThinParts(MaskImage person, int reach_px) {
+  const cv::Mat all(person.height(), person.width(), CV_8UC1, person.pixels().data());
+  cv::Mat thick, thin;
+  cv::morphologyEx(all, thick, cv::MORPH_OPEN, cv::Mat::ones(reach_px, reach_px, CV_8UC1));
+  cv::subtract(all, Grown(thick, all, reach_px), thin);
+  thin = Grown(thin, all - thick, reach_px);
+  DropShort(2 * reach_px, thin);
+  thin.copyTo(all);
+  return person;
+}
+
 // The outline of one person.
 class PersonOutline {
  public:
@@ -102,9 +142,10 @@ class PersonOutline {
     });
     const Layer weighted_share = Blurred(votes.weighted_share, kernel_);
     const Layer weight = Blurred(votes.weight, kernel_);
+    const MaskImage thin = FindThinParts();
     ForEachPixel([&](int x, int y, int u, int v) {
       if (!MayChange(u, v) || near.weight(x, y) == 0.0f) return;
-      const bool belongs = weighted_share(x, y) >= 0.5f * weight(x, y);
+      const bool belongs = thin(x, y) != 0 || weighted_share(x, y) >= 0.5f * weight(x, y);
       if (people_(u, v) != person_ && !belongs) return;
       smoothed.people(u, v) = static_cast<std::uint8_t>(belongs ? person_ : 0);
       if (depth_(u, v) > 0.0f && belongs && votes.share(x, y) < 0.5f)
@@ -151,6 +192,14 @@ class PersonOutline {
       if (near.weight.pixels()[i] > 0.0f) near.depth.pixels()[i] /= near.weight.pixels()[i];
     }
     return near;
+  }
+
+  MaskImage FindThinParts() const {
+    MaskImage person(bounds_.width(), bounds_.height());
+    ForEachPixel([&](int x, int y, int u, int v) {
+      if (people_(u, v) == person_) person(x, y) = 255;
+    });
+    return ThinParts(std::move(person), s_.outline.reach_px);
   }
 
   // Pixels of other people and of other pieces stay what they are.

@@ -21,6 +21,7 @@ struct OutlinedPeople {
 // another piece 0. Any other counts the share of the way from the room's depth to the person's at
 // which its depth lies, so that a foot continues down to the floor; a pixel without measurement, or
 // with a depth that is neither the person's nor the room's, is background with a lower weight.
+// A part that is thinner than the reach and longer than twice the reach keeps its pixels.
 // Boundaries between two people stay as they are.
 OutlinedPeople SmoothOutlines(const DepthImage& depth, const Pieces& pieces, const Room& room,
                               const CutoutSettings& settings, const Image<std::uint8_t>& people);

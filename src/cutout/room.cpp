@@ -143,9 +143,10 @@ Support SupportOf(const FloorPlane& plane, const std::vector<Vector3f>& points, 
   return support;
 }
 
-// The plane of least squares through the points that lie near it.
-FloorPlane Refined(const FloorPlane& plane, const std::vector<Vector3f>& points, double noise,
-                   const CutoutSettings& s) {
+// The plane of least squares through the points that lie near it; nothing if they lie along a line,
+// as a strip of a noisy wall does.
+std::optional<FloorPlane> Refined(const FloorPlane& plane, const std::vector<Vector3f>& points,
+                                  double noise, const CutoutSettings& s) {
   std::vector<Vector3f> in_plane;
   Vector3f mean = Vector3f::Zero();
   for (const Vector3f& point : points) {
@@ -164,6 +165,9 @@ FloorPlane Refined(const FloorPlane& plane, const std::vector<Vector3f>& points,
     spread += d * d.transpose();
   }
   const Eigen::SelfAdjointEigenSolver<Matrix3<double>> axes(spread);
+  constexpr double kLeastWidth = 10.0;  // of the points, in multiples of their thickness; guessed
+  if (axes.eigenvalues()(1) < kLeastWidth * kLeastWidth * axes.eigenvalues()(0))
+    return std::nullopt;
   FloorPlane refined;
   refined.up = axes.eigenvectors().col(0).cast<float>();
   if (refined.up.y() > 0.0f) refined.up = -refined.up;
@@ -180,16 +184,37 @@ std::vector<Vector3f> LowerHalf(std::vector<Vector3f> points) {
   return points;
 }
 
-// RANSAC: the plane that most points support, among those that are level enough, below the camera
-// and have nearly nothing under them.
+// Whether a plane is level enough, below the camera, and has enough points in it and few under it.
+bool MayBeFloor(const FloorPlane& plane, const Support& support, std::size_t points,
+                const FloorSettings& s) {
+  const auto all = static_cast<double>(points);
+  return -plane.up.y() >= std::cos(s.tilt_deg * std::numbers::pi / 180.0) &&
+         plane.height_m > 0.0f && support.in_plane >= s.least_share * all &&
+         support.below <= s.below_share * all;
+}
+
+// The plane after some fits of least squares; nothing if it turns into no floor, as a strip of a
+// wall does.
+std::optional<FloorPlane> RefinedFloor(FloorPlane plane, const std::vector<Vector3f>& points,
+                                       double noise, const CutoutSettings& s) {
+  constexpr int kRefinements = 3;
+  for (int i = 0; i < kRefinements; ++i) {
+    const std::optional<FloorPlane> refined = Refined(plane, points, noise, s);
+    if (!refined) return std::nullopt;
+    plane = *refined;
+  }
+  if (!MayBeFloor(plane, SupportOf(plane, points, noise, s), points.size(), s.floor))
+    return std::nullopt;
+  return plane;
+}
+
+// RANSAC: the plane that most points support, among those that may be a floor before and after they
+// are refined.
 std::optional<FloorPlane> FindFloor(const std::vector<const DepthImage*>& frames,
                                     const PinholeCamera& camera, double noise,
                                     const CutoutSettings& s) {
-  constexpr int kRefinements = 3;
   RandomStream random(static_cast<std::uint64_t>(s.seed), "cutout/floor");
   const std::vector<Vector3f> points = SampledPoints(frames, camera, s, random);
-  const double least = s.floor.least_share * static_cast<double>(points.size());
-  const double most_below = s.floor.below_share * static_cast<double>(points.size());
   const double level = std::cos(s.floor.tilt_deg * std::numbers::pi / 180.0);
   const std::vector<Vector3f> low = LowerHalf(points);
   std::optional<FloorPlane> best;
@@ -200,12 +225,12 @@ std::optional<FloorPlane> FindFloor(const std::vector<const DepthImage*>& frames
     const std::optional<FloorPlane> plane = PlaneThrough(a, b, c);
     if (!plane || -plane->up.y() < level || plane->height_m <= 0.0f) continue;
     const Support support = SupportOf(*plane, points, noise, s);
-    if (support.in_plane <= most || support.in_plane < least || support.below > most_below)
-      continue;
+    if (support.in_plane <= most || !MayBeFloor(*plane, support, points.size(), s.floor)) continue;
+    const std::optional<FloorPlane> refined = RefinedFloor(*plane, points, noise, s);
+    if (!refined) continue;
     most = support.in_plane;
-    best = plane;
+    best = refined;
   }
-  for (int i = 0; i < kRefinements && best; ++i) best = Refined(*best, points, noise, s);
   return best;
 }
 
@@ -268,6 +293,10 @@ void KeepNearCertain(const DepthImage& depth, const MaskImage& certain,
 }
 
 }  // namespace
+
+double FloorPlane::TiltDegrees() const {
+  return std::acos(std::min(1.0f, -up.y())) * 180.0 / std::numbers::pi;
+}
 
 Room LearnRoom(const std::vector<DepthImage>& frames, const std::vector<DepthImage>& empty,
                const PinholeCamera& camera, const CutoutSettings& settings) {

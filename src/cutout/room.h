@@ -19,6 +19,7 @@ struct FloorPlane {
   double share = 0.0;                // share of the sampled points that lie in the plane
 
   float HeightOf(const Vector3f& point) const { return up.dot(point) + height_m; }
+  double TiltDegrees() const;  // between its normal and the image's upright
 };
 
 struct Room {

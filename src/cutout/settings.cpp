@@ -241,7 +241,8 @@ void OutlineSettings::Describe(Fields& f) {
   f.Integer(
       "reach_px", reach_px,
       {.meaning = "distance up to which pixels decide whether a pixel near an outline belongs "
-                  "to the person; 0: each pixel decides for itself",
+                  "to the person; thinner parts that are twice as long keep their pixels; 0: each "
+                  "pixel decides for itself",
        .unit = "px",
        .min = 0,
        .max = 10,

@@ -30,13 +30,19 @@ void AllowOpenExr() {
   static_cast<void>(done);
 }
 
+std::string NumbersOf(const cv::Mat& image) {
+  const bool is_whole = image.depth() != CV_32F && image.depth() != CV_64F;
+  return fmt::format("{}-bit {} numbers", 8 * image.elemSize1(),
+                     is_whole ? "whole" : "floating-point");
+}
+
 }  // namespace
 
 bool IsImageFile(const std::filesystem::path& file) {
   return std::find(kEndings.begin(), kEndings.end(), EndingOf(file)) != kEndings.end();
 }
 
-Image<float> ReadImageFile(const std::filesystem::path& file) {
+StoredImage ReadImageFile(const std::filesystem::path& file) {
   const std::string where = file.string();
   std::string bytes = ReadWholeFile(file);
   AllowOpenExr();
@@ -55,7 +61,7 @@ Image<float> ReadImageFile(const std::filesystem::path& file) {
   Image<float> image(raw.cols, raw.rows);
   cv::Mat values(raw.rows, raw.cols, CV_32FC1, image.pixels().data());
   raw.convertTo(values, CV_32F);
-  return image;
+  return {std::move(image), NumbersOf(raw)};
 }
 
 }  // namespace vitruvia

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "geometry/image.h"
 
@@ -10,8 +11,13 @@ namespace vitruvia {
 // PNG, PGM, TIFF and OpenEXR files of 8, 16 or 32 bits, whole numbers or floating point.
 bool IsImageFile(const std::filesystem::path& file);
 
+struct StoredImage {
+  Image<float> values;
+  std::string numbers;  // how a file stores them, for people: "16-bit whole numbers"
+};
+
 // The stored numbers, including NaN and infinities. DataError naming the file if it is missing,
 // damaged, or has more than one channel.
-Image<float> ReadImageFile(const std::filesystem::path& file);
+StoredImage ReadImageFile(const std::filesystem::path& file);
 
 }  // namespace vitruvia

@@ -54,11 +54,22 @@ void RequireRays(const fs::path& file, const OrganisedCloud& cloud, const Pinhol
       columns.center(), rows.center()));
 }
 
-Image<float> StoredValues(const fs::path& file, const PinholeCamera& camera) {
+// Another bit depth has another unit.
+void RequireNumbers(const fs::path& file, const std::string& numbers, const std::string& expected) {
+  if (expected.empty() || numbers == expected) return;
+  throw DataError(fmt::format(
+      "{}: an image of {}, expected {} as the first image of the recording has; is it another "
+      "recording's?",
+      file.string(), numbers, expected));
+}
+
+Image<float> StoredValues(const fs::path& file, const StoredDepth& stored) {
+  const PinholeCamera& camera = stored.camera;
   if (!IsPcdFile(file)) {
-    Image<float> values = ReadImageFile(file);
-    RequireSize(file, values.width(), values.height(), camera);
-    return values;
+    StoredImage image = ReadImageFile(file);
+    RequireSize(file, image.values.width(), image.values.height(), camera);
+    RequireNumbers(file, image.numbers, stored.numbers);
+    return std::move(image.values);
   }
   const OrganisedCloud cloud = ReadOrganisedPcd(file);
   RequireSize(file, cloud.width, cloud.height, camera);
@@ -70,8 +81,12 @@ Image<float> StoredValues(const fs::path& file, const PinholeCamera& camera) {
 
 }  // namespace
 
+std::string StoredNumbers(const fs::path& file) {
+  return IsPcdFile(file) ? "" : ReadImageFile(file).numbers;
+}
+
 DepthImage ReadDepthFrame(const fs::path& file, const StoredDepth& stored) {
-  Image<float> depth = StoredValues(file, stored.camera);
+  Image<float> depth = StoredValues(file, stored);
   std::vector<float> invalid(stored.invalid.begin(), stored.invalid.end());
   const auto unit = static_cast<float>(stored.unit_m);
   for (float& value : depth.pixels()) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -26,6 +27,7 @@ namespace {
 constexpr double kUsualFps = 30.0;
 constexpr double kNearestRoom_m = 0.2, kFarthestRoom_m = 20.0;  // median depth of a recording
 constexpr std::size_t kEveryPixel = 97;                         // looked at for that median
+constexpr double kOtherUnit = 5.0;      // factor of a frame's median depth that nobody causes
 constexpr int kBatch = 16;              // frames that are worked on together
 constexpr int kSheetFrames = 12;        // of the preview
 constexpr int kNamedUnsureFrames = 50;  // in the provenance
@@ -69,11 +71,17 @@ std::vector<fs::path> FilesWithoutPerson(const DepthImportSettings& s) {
   return {first, s.empty_frames.count > 0 ? first + s.empty_frames.count : files.end()};
 }
 
-// Reads frames on all threads.
+std::string NumbersOf(const std::vector<fs::path>& files) {
+  const auto first =
+      std::find_if(files.begin(), files.end(), [](const fs::path& file) { return !file.empty(); });
+  return first == files.end() ? "" : StoredNumbers(*first);
+}
+
+// Reads frames of one recording, whose files all store the same kind of numbers, on all threads.
 class FrameReader {
  public:
-  FrameReader(const DepthImportSettings& s, WorkerTeam& team)
-      : stored_{s.camera.AsCamera(), s.unit_m, s.invalid, s.orientation},
+  FrameReader(const DepthImportSettings& s, const std::vector<fs::path>& files, WorkerTeam& team)
+      : stored_{s.camera.AsCamera(), s.unit_m, s.invalid, s.orientation, NumbersOf(files)},
         camera_(OrientedCamera(stored_.camera, s.orientation)),
         team_(team) {}
 
@@ -105,15 +113,43 @@ class FrameReader {
   WorkerTeam& team_;
 };
 
+// Measured depths of some pixels.
+void AddDepths(const DepthImage& image, std::size_t every_pixel, std::vector<double>& depths) {
+  for (std::size_t i = 0; i < image.pixels().size(); i += every_pixel) {
+    if (image.pixels()[i] > 0.0f) depths.push_back(image.pixels()[i]);
+  }
+}
+
+std::vector<double> DepthsOf(const std::vector<DepthImage>& images, std::size_t every_pixel) {
+  std::vector<double> depths;
+  for (const DepthImage& image : images) AddDepths(image, every_pixel, depths);
+  return depths;
+}
+
+// Least and largest measured depth; 0 for the largest where nothing is measured.
+std::pair<float, float> DepthRange(const std::vector<DepthImage>& images) {
+  float least = std::numeric_limits<float>::infinity(), most = 0.0f;
+  for (const DepthImage& image : images) {
+    for (const float z : image.pixels()) {
+      if (z > 0.0f) least = std::min(least, z);
+      most = std::max(most, z);
+    }
+  }
+  return {least, most};
+}
+
+// 0 where nothing is measured.
+double MedianDepth(const DepthImage& image) {
+  std::vector<double> depths;
+  AddDepths(image, kEveryPixel, depths);
+  return depths.empty() ? 0.0 : Quantile(depths, 0.5);
+}
+
 // Depth in a wrong unit is the most likely mistake, and would cause later steps to fail with
 // misleading messages.
 void RequireRoom(const std::vector<DepthImage>& sample, const DepthImportSettings& s) {
-  std::vector<double> depths;
-  for (const DepthImage& image : sample) {
-    for (std::size_t i = 0; i < image.pixels().size(); i += kEveryPixel) {
-      if (image.pixels()[i] > 0.0f) depths.push_back(image.pixels()[i]);
-    }
-  }
+  std::vector<double> depths = DepthsOf(sample, kEveryPixel);
+  if (depths.empty()) depths = DepthsOf(sample, 1);
   const std::string where = s.images.string();
   if (depths.empty()) {
     throw DataError(fmt::format(
@@ -134,15 +170,20 @@ void RequireRoom(const std::vector<DepthImage>& sample, const DepthImportSetting
 // Without a measurement in any of them the room would not be known, and nothing would say so.
 void RequireEmptyRoom(const std::vector<DepthImage>& empty, const DepthImportSettings& s) {
   if (s.cutout.background.source != BackgroundSource::kEmptyFrames) return;
-  const bool is_measured = std::any_of(empty.begin(), empty.end(), [](const DepthImage& image) {
-    return std::any_of(image.pixels().begin(), image.pixels().end(), [](float z) { return z > 0; });
-  });
-  if (is_measured) return;
   const fs::path& images = s.empty_frames.images.empty() ? s.images : s.empty_frames.images;
+  const auto [least_m, most_m] = DepthRange(empty);
+  if (most_m == 0.0f) {
+    throw DataError(fmt::format(
+        "{}: empty_frames: none of {} frames looked at holds a measurement; expected images of the "
+        "room without a person, which cutout.background.source empty_frames learns the room from",
+        images.string(), empty.size()));
+  }
+  if (least_m != most_m || least_m <= s.cutout.far_m) return;
   throw DataError(fmt::format(
-      "{}: empty_frames: none of {} frames looked at holds a measurement; expected images of the "
-      "room without a person, which cutout.background.source empty_frames learns the room from",
-      images.string(), empty.size()));
+      "{}: empty_frames: every pixel of {} frames looked at lies at {:.4g} m, beyond cutout.far_m "
+      "({:g} m), so that no room is known; is the stored value {:.5g} the camera's mark for no "
+      "measurement, which belongs in `invalid`?",
+      images.string(), empty.size(), least_m, s.cutout.far_m, least_m / s.unit_m));
 }
 
 SequenceInfo InfoOf(const DepthImportSettings& s, const Frames& frames,
@@ -167,6 +208,7 @@ struct FollowedRecording {
   std::vector<FollowedPerson> people;
   std::vector<PackedLabels> labels;             // of people, of each frame
   std::vector<std::vector<int>> foreign_depth;  // of each frame (outline.h)
+  std::vector<double> median_depths_m;          // of each frame; 0 where nothing is measured
   int at_pixel = 0;                             // who is at the pixel of the settings
   double largest_piece_m2 = 0.0, tallest_piece_m = 0.0;
 
@@ -222,6 +264,7 @@ class RecordingFollower {
   // Follows the people into the next frame; returns the number of the person at each pixel.
   Image<std::uint8_t> Add(const DepthImage& depth, const Pieces& pieces) {
     Image<std::uint8_t> people = people_.Follow(depth, pieces);
+    found_.median_depths_m.push_back(MedianDepth(depth));
     if (frames_++ == settings_.person.frame) found_.at_pixel = PersonAt(people, settings_.person);
     if (!pieces.pieces.empty()) {
       const Piece& largest = pieces.pieces.front();
@@ -252,20 +295,28 @@ FollowedRecording FollowAndWrite(std::span<const fs::path> files, RecordingFollo
 }
 
 // The likely reason why no piece has a person's size.
-std::string WhyNobody(const FollowedRecording& found, const DepthImportSettings& s) {
+std::string WhyNobody(const FollowedRecording& found, const Room& room,
+                      const DepthImportSettings& s) {
   if (found.tallest_piece_m > s.cutout.person.size.most_height_m) {
     return fmt::format(
         "Are the focal lengths those of the images (camera: fx {:g}, fy {:g}), and does the "
         "background hold the room (cutout.background), so that the person is not one with it?",
         s.camera.fx, s.camera.fy);
   }
+  const std::string with_floor =
+      room.floor ? fmt::format(
+                       ", or was the person removed with the floor (cutout.floor), {:.2f} m under "
+                       "the camera, tilted {:.1f} degrees",
+                       room.floor->height_m, room.floor->TiltDegrees())
+                 : "";
   return fmt::format(
       "Does the person stand still all the time, so that they count as background "
-      "(cutout.background), or beyond far_m ({:g} m)?",
-      s.cutout.far_m);
+      "(cutout.background), or beyond far_m ({:g} m){}?",
+      s.cutout.far_m, with_floor);
 }
 
-ChosenPerson RequirePerson(const FollowedRecording& found, const DepthImportSettings& s) {
+ChosenPerson RequirePerson(const FollowedRecording& found, const Room& room,
+                           const DepthImportSettings& s) {
   const PersonSettings& person = s.cutout.person;
   if (const auto chosen = ChoosePerson(found.people, person, found.at_pixel)) return *chosen;
   const std::string where = s.images.string();
@@ -281,7 +332,23 @@ ChosenPerson RequirePerson(const FollowedRecording& found, const DepthImportSett
       "to {:g} m (cutout.person.size). {}",
       where, found.labels.size(), found.largest_piece_m2, found.tallest_piece_m,
       person.size.least_area_m2, person.size.least_height_m, person.size.most_height_m,
-      WhyNobody(found, s)));
+      WhyNobody(found, room, s)));
+}
+
+// Names frames whose depths are several times those of the recording.
+void AddOtherUnits(const std::vector<double>& median_depths_m, CutoutReport& report) {
+  std::vector<double> measured = median_depths_m;
+  std::erase(measured, 0.0);
+  const double usual_m = measured.empty() ? 0.0 : Quantile(measured, 0.5);
+  for (std::size_t i = 0; i < median_depths_m.size(); ++i) {
+    const double depth_m = median_depths_m[i];
+    if (depth_m == 0.0 || (depth_m < usual_m * kOtherUnit && depth_m > usual_m / kOtherUnit))
+      continue;
+    report.AddUnsure(static_cast<int>(i),
+                     fmt::format("its median depth is {:.3g} m, {:.3g} m in the recording: has it "
+                                 "another unit?",
+                                 depth_m, usual_m));
+  }
 }
 
 // Writes all masks; returns each one's share of the image.
@@ -354,11 +421,13 @@ DepthImport ImportDepthSequence(const DepthImportSettings& s, int threads, const
   if (!s.subject.empty()) subject = ReadBodyModel(s.subject);
   const Frames frames = ChosenFrames(s);
   WorkerTeam team(threads);
-  const FrameReader reader(s, team);
+  const FrameReader reader(s, frames.files, team);
   const int samples = s.cutout.background.samples;
   const std::vector<DepthImage> sample = reader.ReadSample(frames.files, samples);
   RequireRoom(sample, s);
-  const std::vector<DepthImage> empty = reader.ReadSample(FilesWithoutPerson(s), samples);
+  const std::vector<fs::path> without_person = FilesWithoutPerson(s);
+  const std::vector<DepthImage> empty =
+      FrameReader(s, without_person, team).ReadSample(without_person, samples);
   RequireEmptyRoom(empty, s);
 
   DepthImport result;
@@ -376,9 +445,10 @@ DepthImport ImportDepthSequence(const DepthImportSettings& s, int threads, const
     found = FollowAndWrite(frames.files, follower, team, writer, progress);
   }
   result.people = static_cast<int>(found.people.size());
-  result.chosen = RequirePerson(found, s);
+  result.chosen = RequirePerson(found, result.room, s);
   const std::vector<double> shares = WriteMasks(found, result.chosen, writer, team);
   result.cut = ReportCutout(found.people, result.chosen, shares, s.cutout.following);
+  AddOtherUnits(found.median_depths_m, result.cut);
   writer.WritePreview(Sheet(reader, frames.files, found, result.chosen, result.cut));
   writer.Note("cutout", NoteOf(result));
   PublishChecked(writer, folder, {}, threads);

@@ -108,6 +108,43 @@ TEST(SmoothOutlines, KeepsTheOutlineThatIsMeasuredWithoutError) {
   EXPECT_GT(Overlap(cut.smoothed.people, TruthOf(clean)), 0.995);  // corners are rounded
 }
 
+// A forearm of one or two pixels has less than half of the votes round it.
+TEST(SmoothOutlines, KeepsALimbThatIsThinnerThanTheReach) {
+  RoomView view = Empty();
+  view.boxes = {{-0.2, 0.2, -0.6, 0.4, kPerson_m}};
+  DepthImage depth = view.Rendered(Camera());
+  const int right = 179;
+  ASSERT_TRUE(depth(right - 1, 100) == kPerson_m && depth(right, 100) != kPerson_m);
+  const auto add = [&](int u, int v) { depth(u, v) = kPerson_m; };
+  for (int u = right; u < right + 15; ++u) {
+    add(u, 80), add(u, 100), add(u, 101);           // one pixel, and two
+    depth(u, 120) = u % 5 == 4 ? 0.0f : kPerson_m;  // with gaps
+    add(u, 130 + (u - right) / 2);                  // slanting
+  }
+  const CutOut cut = CutOutOf(depth, KnownRoom(0.001));
+  for (int v = 75; v < 145; ++v) {
+    for (int u = right + 3; u < right + 15; ++u) {
+      const bool is_limb = depth(u, v) == kPerson_m && cut.measured(u, v) != 0;
+      EXPECT_TRUE(!is_limb || cut.smoothed.people(u, v) == 1) << u << " " << v;
+    }
+  }
+}
+
+TEST(SmoothOutlines, DropsTheRoughnessOfAnEdge) {
+  RoomView view = Empty();
+  view.boxes = {{-0.2, 0.2, -0.6, 0.4, kPerson_m}};
+  DepthImage depth = view.Rendered(Camera());
+  const int right = 179;
+  for (const int length : {1, 2, 3}) {
+    for (int u = right; u < right + length; ++u) depth(u, 80 + 10 * length) = kPerson_m;
+  }
+  const CutOut cut = CutOutOf(depth, KnownRoom(0.001));
+  for (const int length : {1, 2, 3}) {
+    EXPECT_EQ(cut.measured(right + length - 1, 80 + 10 * length), 1) << length;
+    EXPECT_EQ(cut.smoothed.people(right + length - 1, 80 + 10 * length), 0) << length;
+  }
+}
+
 // Near the floor a foot differs from it by less than the noise of one pixel, but several pixels
 // together tell them apart.
 TEST(SmoothOutlines, FollowsAFootDownToTheFloor) {

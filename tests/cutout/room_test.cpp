@@ -51,6 +51,24 @@ TEST(LearnRoom, HasNoFloorWhereThereIsNone) {
   EXPECT_FALSE(LearnRoom({wall.Rendered()}, {}, RoomCamera(), settings).floor.has_value());
 }
 
+// A strip along the lower rim of a wall has the points of a tilted plane.
+TEST(LearnRoom, TakesNoStripOfAWallForTheFloor) {
+  RandomStream random(7, "test");
+  constexpr double kNoise = 0.0014;
+  for (const double wall_m : {1.5, 3.0, 4.5}) {
+    const DepthImage wall = RoomView{.wall_m = wall_m}.Rendered();
+    std::vector<DepthImage> frames;
+    for (int i = 0; i < 4; ++i) frames.push_back(Noisy(wall, kNoise, random));
+    for (const double tilt_deg : {20.0, 45.0, 60.0}) {
+      CutoutSettings settings;
+      settings.floor.tilt_deg = tilt_deg;
+      const Room room = LearnRoom(frames, {}, RoomCamera(), settings);
+      EXPECT_FALSE(room.floor.has_value())
+          << wall_m << " m, " << tilt_deg << " degrees: " << room.floor->TiltDegrees();
+    }
+  }
+}
+
 TEST(LearnRoom, MeasuresTheNoiseOfTheSensor) {
   RandomStream random(5, "test");
   const RoomView view{.wall_m = 3.0, .camera_height_m = 1.0, .pitch = 0.2};

@@ -97,6 +97,18 @@ class DepthImport : public testing::Test {
          {{"width", 80}, {"height", 60}, {"fx", 71}, {"fy", 71}, {"cx", 39.5}, {"cy", 29.5}}}};
   }
 
+  // An image of a level floor 1.2 m under that camera, which looks down by 0.3 radians.
+  static void WriteFloor(const fs::path& folder) {
+    fs::create_directory(folder);
+    Image<float> image(80, 60);
+    for (int v = 0; v < 60; ++v) {
+      const double down = (v - 29.5) / 71.0 * std::cos(0.3) + std::sin(0.3);
+      for (int u = 0; u < 80; ++u)
+        image(u, v) = down > 0.1 ? static_cast<float>(std::round(1200.0 / down)) : 0.0f;
+    }
+    WriteImageFile(folder / "000.png", image, CV_16UC1);
+  }
+
   // Millimetres.
   static Image<float> Box(int frame) {
     Image<float> image(80, 60, 4000.0f);
@@ -218,6 +230,13 @@ TEST_F(DepthImport, BadInputIsNamedAndNothingIsWritten) {
   config_ = good;
   config_["cutout"] = {{"far_m", 1.5}};
   ExpectRefused(ExitCode::kBadData, {"no person is found in any of 12 frames", "stand still"});
+  WriteFloor(files_ / "floor");
+  config_["empty_frames"] = {{"images", "floor"}};
+  config_["cutout"] = {{"far_m", 3.0},
+                       {"background", {{"source", "empty_frames"}}},
+                       {"person", {{"size", {{"least_height_m", 2.0}}}}}};
+  ExpectRefused(ExitCode::kBadData,
+                {"no person is found", "cutout.floor", "1.20 m under the camera, tilted"});
   config_ = good;
   config_["camera"]["fx"] = config_["camera"]["fy"] = 25;
   ExpectRefused(ExitCode::kBadData, {"no person is found", "focal lengths", "fx 25, fy 25"});
@@ -231,12 +250,37 @@ TEST_F(DepthImport, BadInputIsNamedAndNothingIsWritten) {
   config_["empty_frames"] = {{"images", "nothing"}};
   ExpectRefused(ExitCode::kBadData,
                 {"nothing: empty_frames", "none of 1 frames looked at holds a measurement"});
+  WriteImageFile(files_ / "nothing/000.png", Image<float>(80, 60, 65535.0f), CV_16UC1);
+  ExpectRefused(ExitCode::kBadData, {"nothing: empty_frames", "every pixel of 1 frames",
+                                     "65.54 m, beyond cutout.far_m (6 m)", "65535", "`invalid`"});
   config_ = good;
   config_["invalid"] = {2000, 2020, 4000};
   ExpectRefused(ExitCode::kBadData, {"holds a measurement", "empty frames"});
   config_ = good;
+  WriteImageFile(files_ / "boxes/007.png", Image<float>(80, 60, 200.0f), CV_8UC1);
+  ExpectRefused(ExitCode::kBadData,
+                {"007.png", "8-bit whole numbers, expected 16-bit whole numbers"});
   WriteWholeFile(files_ / "boxes/007.png", "damaged");
   ExpectRefused(ExitCode::kBadData, {"007.png", "cannot be decoded"});
+}
+
+TEST_F(DepthImport, OnePixelOfAFrameIsAMeasurement) {
+  MakeBoxes(1);
+  Image<float> image(80, 60);
+  image(41, 30) = 2000.0f;
+  WriteImageFile(files_ / "boxes/000.png", image, CV_16UC1);
+  ExpectRefused(ExitCode::kBadData, {"no person is found in any of 1 frames"});
+}
+
+TEST_F(DepthImport, FrameOfAnotherUnitIsNamed) {
+  MakeBoxes(12);
+  Image<float> image = Box(6);
+  for (float& z : image.pixels()) z *= 10.0f;
+  WriteImageFile(files_ / "boxes/006.png", image, CV_16UC1);
+  const CallResult call = Import("imported");
+  ASSERT_EQ(call.code, 0) << call.error;
+  EXPECT_THAT(call.out, HasSubstr("unsure of frame 6: the person is not seen; its median depth is "
+                                  "40 m, 4 m in the recording: has it another unit?"));
 }
 
 // One real frame of a Kinect: each of five people who stand side by side can be chosen.

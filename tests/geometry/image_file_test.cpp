@@ -26,7 +26,7 @@ TEST(ImageFile, EveryKindGivesBackItsNumbers) {
   const auto same = [&](const std::string& name, const Image<float>& image, int numbers) {
     EXPECT_TRUE(IsImageFile(folder / name));
     WriteImageFile(folder / name, image, numbers);
-    EXPECT_EQ(ReadImageFile(folder / name).pixels(), image.pixels()) << name;
+    EXPECT_EQ(ReadImageFile(folder / name).values.pixels(), image.pixels()) << name;
   };
   same("8.png", Ramp(7.0f), CV_8UC1);
   same("16.png", Ramp(1900.0f), CV_16UC1);
@@ -42,7 +42,7 @@ TEST(ImageFile, NumbersThatAreNotFiniteStay) {
   image(1, 1) = std::numeric_limits<float>::quiet_NaN();
   image(2, 1) = std::numeric_limits<float>::infinity();
   WriteImageFile(folder / "a.tiff", image, CV_32FC1);
-  const Image<float> read = ReadImageFile(folder / "a.tiff");
+  const Image<float> read = ReadImageFile(folder / "a.tiff").values;
   EXPECT_TRUE(std::isnan(read(1, 1)));
   EXPECT_TRUE(std::isinf(read(2, 1)));
 }
