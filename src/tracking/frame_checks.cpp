@@ -9,10 +9,14 @@
 namespace vitruvia {
 namespace {
 
-bool HoldsMeasurement(const DepthImage& depth, double max_depth_m) {
-  return std::any_of(depth.pixels().begin(), depth.pixels().end(), [&](float depth_m) {
-    return depth_m > 0.0f && depth_m <= static_cast<float>(max_depth_m);
-  });
+// Number of the image's measurements, counted up to `enough`.
+int CountMeasurements(const DepthImage& depth, double max_depth_m, int enough) {
+  int count = 0;
+  for (const float depth_m : depth.pixels()) {
+    count += depth_m > 0.0f && depth_m <= static_cast<float>(max_depth_m) ? 1 : 0;
+    if (count == enough) break;
+  }
+  return count;
 }
 
 }  // namespace
@@ -44,26 +48,30 @@ void DescribeLostBelow(Fields& f, double& lost_below) {
 }
 
 void DescribeLeastPoints(Fields& f, int& least_points) {
-  f.Integer("least_points", least_points,
-            {.meaning = "a frame is lost, and the pose is kept, when fewer of the pixels that the "
-                        "tracker reads are measured: a few points fit any pose",
-             .min = 1,
-             .max = 100000,
-             .origin = Origin::kGuessed,
-             .source = "the papers are silent; one point for each of the 17 bones"});
+  f.Integer(
+      "least_points", least_points,
+      {.meaning = "a frame is lost, and the pose is kept, when fewer of its pixels are measured: "
+                  "a few points fit any pose",
+       .min = 1,
+       .max = 100000,
+       .origin = Origin::kGuessed,
+       .source = "the papers are silent; one point for each of the 17 bones"});
 }
 
 std::optional<UnfittedFrame> CheckPoints(const PointCloud& cloud, const DepthImage& depth,
                                          double max_depth_m, int least_points) {
-  const std::size_t count = cloud.points.size();
-  if (count >= static_cast<std::size_t>(least_points)) return {};
-  if (count == 0 && !HoldsMeasurement(depth, max_depth_m))
-    return UnfittedFrame{Outcome::kNoData, kNoMeasurement};
+  const int count = CountMeasurements(depth, max_depth_m, least_points);
+  if (count == 0) return UnfittedFrame{Outcome::kNoData, kNoMeasurement};
+  if (count == least_points && !cloud.points.empty()) return {};
   return UnfittedFrame{
       Outcome::kLost,
-      fmt::format("the frame gives {} {}, too few to fix a pose: expected at least {}; the pose is "
-                  "carried over",
-                  count, count == 1 ? "point" : "points", least_points)};
+      count < least_points
+          ? fmt::format(
+                "the frame has {} measured {}, too few to fix a pose: expected at least {}; "
+                "the pose is carried over",
+                count, count == 1 ? "pixel" : "pixels", least_points)
+          : std::string("the tracker reads none of the frame's measured pixels: the stride of the "
+                        "cloud leaves them out; the pose is carried over")};
 }
 
 }  // namespace vitruvia

@@ -28,8 +28,8 @@ struct UnfittedFrame {
   Outcome outcome;
   std::string message;
 };
-// Nothing if the cloud, which was taken from the depth image, has at least `least_points` points.
-// kNoData only if the whole image holds no measurement, for the cloud may skip pixels.
+// Nothing if at least `least_points` pixels of the image are measured, and the cloud that was taken
+// from it, which may skip pixels, holds one. kNoData if the image holds no measurement.
 std::optional<UnfittedFrame> CheckPoints(const PointCloud& cloud, const DepthImage& depth,
                                          double max_depth_m, int least_points);
 

@@ -80,7 +80,7 @@ TEST(Dynamic, SaysLostWhenAFrameHasTooFewPoints) {
   tracker.Start(stage.body, stage.camera);
   const TrackResult first = tracker.TrackFrame(FrameOfPoints(1));
   EXPECT_EQ(first.outcome, Outcome::kLost);
-  EXPECT_THAT(first.message, testing::HasSubstr("1 point, too few to fix a pose"));
+  EXPECT_THAT(first.message, testing::HasSubstr("1 measured pixel, too few to fix a pose"));
   const TrackResult before = tracker.TrackFrame(stage.Frame(0, 0.0));
   EXPECT_FALSE(IsFailure(before.outcome)) << before.message;
   EXPECT_LT(stage.MeanError(before, 0.0), 0.01);
