@@ -74,8 +74,8 @@ FloatLanes SampleDepth(const DepthImage& depth, const FloatLanes& u, const Float
 
   const FloatLanes column = is_in_view ? u + 0.5f : kZero, row = is_in_view ? v + 0.5f : kZero;
   const FloatLanes nearest = depth_at(is_in_view, Truncate(row) * width + Truncate(column));
-  return is_measured & (high - low <= smooth_within_m) ? between
-                                                       : (nearest > 0.0f ? nearest : kZero);
+  const IntLanes is_smooth = is_measured & (high - low <= smooth_within_m);
+  return is_smooth ? between : (nearest > 0.0f ? nearest : kZero);
 }
 
 }  // namespace vitruvia

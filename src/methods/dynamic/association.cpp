@@ -35,8 +35,8 @@ struct LaneRange {
   IntLanes lowest = IntLanes{} + std::numeric_limits<int>::max(), highest = IntLanes{} - 1;
 
   void Add(const IntLanes& numbers, const IntLanes& counts) {
-    lowest = counts & (numbers < lowest) ? numbers : lowest;
-    highest = counts & (numbers > highest) ? numbers : highest;
+    lowest = (counts & (numbers < lowest)) ? numbers : lowest;
+    highest = (counts & (numbers > highest)) ? numbers : highest;
   }
   int Lowest() const { return SmallestLane(lowest); }
   int Highest() const { return -SmallestLane(-highest); }
@@ -379,7 +379,7 @@ Association::Match Association::Search(int i, float cutoff_m) const {
 // It is known that one, or the cutoff, is as close as nearest_m, and none as close as enough_m, so
 // that tiles may be left out: the bound of the others is not larger than enough_m.
 void Association::SearchFarther(int i, float nearest_m, Best& best) const {
-  const auto [column, row] = point_pixels_[i];
+  const int column = point_pixels_[i].column, row = point_pixels_[i].row;
   const Vector3f point = points_.At(i);
   int reach = ReachOf(i, nearest_m);
   constexpr int kTile = TileBoxes::kTile_px;
