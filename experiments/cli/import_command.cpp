@@ -1,9 +1,7 @@
 #include "experiments/cli/import_command.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
-#include <numbers>
 
 #include <CLI/CLI.hpp>
 

@@ -184,13 +184,14 @@ std::vector<Vector3f> LowerHalf(std::vector<Vector3f> points) {
   return points;
 }
 
-// Whether a plane is level enough, below the camera, and has enough points in it and few under it.
-bool MayBeFloor(const FloorPlane& plane, const Support& support, std::size_t points,
-                const FloorSettings& s) {
+bool IsLevelBelowCamera(const FloorPlane& plane, const FloorSettings& s) {
+  return -plane.up.y() >= std::cos(s.tilt_deg * std::numbers::pi / 180.0) && plane.height_m > 0.0f;
+}
+
+// Whether enough of all points lie in a plane, and few under it.
+bool IsFloorsSupport(const Support& support, std::size_t points, const FloorSettings& s) {
   const auto all = static_cast<double>(points);
-  return -plane.up.y() >= std::cos(s.tilt_deg * std::numbers::pi / 180.0) &&
-         plane.height_m > 0.0f && support.in_plane >= s.least_share * all &&
-         support.below <= s.below_share * all;
+  return support.in_plane >= s.least_share * all && support.below <= s.below_share * all;
 }
 
 // The plane after some fits of least squares; nothing if it turns into no floor, as a strip of a
@@ -203,7 +204,8 @@ std::optional<FloorPlane> RefinedFloor(FloorPlane plane, const std::vector<Vecto
     if (!refined) return std::nullopt;
     plane = *refined;
   }
-  if (!MayBeFloor(plane, SupportOf(plane, points, noise, s), points.size(), s.floor))
+  if (!IsLevelBelowCamera(plane, s.floor) ||
+      !IsFloorsSupport(SupportOf(plane, points, noise, s), points.size(), s.floor))
     return std::nullopt;
   return plane;
 }
@@ -215,7 +217,6 @@ std::optional<FloorPlane> FindFloor(const std::vector<const DepthImage*>& frames
                                     const CutoutSettings& s) {
   RandomStream random(static_cast<std::uint64_t>(s.seed), "cutout/floor");
   const std::vector<Vector3f> points = SampledPoints(frames, camera, s, random);
-  const double level = std::cos(s.floor.tilt_deg * std::numbers::pi / 180.0);
   const std::vector<Vector3f> low = LowerHalf(points);
   std::optional<FloorPlane> best;
   int most = 0;
@@ -223,15 +224,23 @@ std::optional<FloorPlane> FindFloor(const std::vector<const DepthImage*>& frames
     const auto any = [&]() -> const Vector3f& { return low[random.Index(low.size())]; };
     const Vector3f &a = any(), &b = any(), &c = any();
     const std::optional<FloorPlane> plane = PlaneThrough(a, b, c);
-    if (!plane || -plane->up.y() < level || plane->height_m <= 0.0f) continue;
+    if (!plane || !IsLevelBelowCamera(*plane, s.floor)) continue;
     const Support support = SupportOf(*plane, points, noise, s);
-    if (support.in_plane <= most || !MayBeFloor(*plane, support, points.size(), s.floor)) continue;
+    if (support.in_plane <= most || !IsFloorsSupport(support, points.size(), s.floor)) continue;
     const std::optional<FloorPlane> refined = RefinedFloor(*plane, points, noise, s);
     if (!refined) continue;
     most = support.in_plane;
     best = refined;
   }
   return best;
+}
+
+// Nothing where the background is not known or beyond range.
+std::optional<RoomDepth> BackgroundAt(const Room& room, const CutoutSettings& s, int u, int v) {
+  const float depth_m = room.background(u, v);
+  if (!(depth_m > 0.0f && depth_m < kBeyondRange)) return std::nullopt;
+  return RoomDepth{depth_m, std::max(static_cast<float>(s.background.margin_m),
+                                     static_cast<float>(s.noise_sigmas) * room.NoiseAt(depth_m))};
 }
 
 bool HasNeighbour(const MaskImage& foreground, int u, int v) {
@@ -321,18 +330,14 @@ Room LearnRoom(const std::vector<DepthImage>& frames, const std::vector<DepthIma
 }
 
 RoomDepth RoomDepthAt(const Room& room, const CutoutSettings& s, int u, int v) {
-  const auto sigmas = static_cast<float>(s.noise_sigmas);
-  const float background = room.background(u, v);
-  if (background > 0.0f && background < kBeyondRange)
-    return {background,
-            std::max(static_cast<float>(s.background.margin_m), sigmas * room.NoiseAt(background))};
+  if (const auto background = BackgroundAt(room, s, u, v)) return *background;
   if (!room.floor) return {kBeyondRange, 0.0f};
   const float descent = -room.floor->up.dot(
       room.camera.Unproject(static_cast<float>(u), static_cast<float>(v), 1.0f));
   if (descent <= 0.0f) return {kBeyondRange, 0.0f};
   const float floor = room.floor->height_m / descent;
-  return {floor,
-          std::max(static_cast<float>(s.floor.margin_m) / descent, sigmas * room.NoiseAt(floor))};
+  return {floor, std::max(static_cast<float>(s.floor.margin_m) / descent,
+                          static_cast<float>(s.noise_sigmas) * room.NoiseAt(floor))};
 }
 
 MaskImage ForegroundOf(const DepthImage& depth, const Room& room, const CutoutSettings& s) {
@@ -340,24 +345,21 @@ MaskImage ForegroundOf(const DepthImage& depth, const Room& room, const CutoutSe
   MaskImage certain(depth.width(), depth.height());
   const auto near = static_cast<float>(s.near_m), far = static_cast<float>(s.far_m);
   const auto sigmas = static_cast<float>(s.noise_sigmas);
-  const auto margin = static_cast<float>(s.background.margin_m);
   const auto floor_margin = static_cast<float>(s.floor.margin_m);
   const auto certain_height = static_cast<float>(s.floor.certain_m);
   for (int v = 0; v < depth.height(); ++v) {
     for (int u = 0; u < depth.width(); ++u) {
       const float z = depth(u, v);
       if (!(z >= near && z <= far)) continue;
-      const float background = room.background(u, v);
-      const bool background_known = background > 0.0f && background < kBeyondRange;
-      if (background_known && z > background - std::max(margin, sigmas * room.NoiseAt(background)))
-        continue;
+      const std::optional<RoomDepth> background = BackgroundAt(room, s, u, v);
+      if (background && z > background->depth_m - background->margin_m) continue;
       float height = kBeyondRange;
       if (room.floor) {
         const Vector3f point =
             room.camera.Unproject(static_cast<float>(u), static_cast<float>(v), z);
         height = room.floor->HeightOf(point);
         const float noise = FloorNoise(*room.floor, point, room.noise_at_1m_m);
-        if (!background_known && height < std::max(floor_margin, sigmas * noise)) continue;
+        if (!background && height < std::max(floor_margin, sigmas * noise)) continue;
       }
       foreground(u, v) = 255;
       if (height > certain_height) certain(u, v) = 255;

@@ -96,11 +96,12 @@ inline constexpr auto kLanesOfBits = [] {
   return lanes_of_bits;
 }();
 
-// The numbers at these indices.
-inline FloatLanes Gather(const float* numbers, IntLanes indices) {
-  return FloatLanes{numbers[indices[0]], numbers[indices[1]], numbers[indices[2]],
-                    numbers[indices[3]], numbers[indices[4]], numbers[indices[5]],
-                    numbers[indices[6]], numbers[indices[7]]};
+// The numbers at these eight indices, in an IntLanes or an array.
+template <class Scalar, class Indices>
+[[gnu::always_inline]] inline Lanes<Scalar> Gather(const Scalar* numbers, const Indices& indices) {
+  return Lanes<Scalar>{numbers[indices[0]], numbers[indices[1]], numbers[indices[2]],
+                       numbers[indices[3]], numbers[indices[4]], numbers[indices[5]],
+                       numbers[indices[6]], numbers[indices[7]]};
 }
 
 // Writes the lanes in which the mask is set one after the other, and further ones behind them: `to`
@@ -160,6 +161,12 @@ Number LoadLanes(const std::vector<Scalar>& column, int first) {
   Number lanes;
   std::memcpy(&lanes, &column[first], sizeof lanes);
   return lanes;
+}
+
+// Writes them there.
+template <class Number, class Scalar>
+void StoreLanes(const Number& lanes, int first, std::vector<Scalar>& column) {
+  std::memcpy(&column[first], &lanes, sizeof lanes);
 }
 
 // The coordinates of eight points.

@@ -1,7 +1,5 @@
 #include "tracking/frame_checks.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "core/error.h"

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numeric>
 
@@ -23,11 +22,6 @@ void FillRays(double focal_px, double center_px, int window_px, std::vector<floa
     const double off = std::abs(static_cast<double>(i) - center_px) + window_px + 0.5;
     rays[i] = static_cast<float>(std::hypot(focal_px, off));
   }
-}
-
-template <class Lane, class Number>
-void StoreLanes(const Lane& lanes, int first, std::vector<Number>& column) {
-  std::memcpy(&column[first], &lanes, sizeof lanes);
 }
 
 // The range of those numbers that count.
@@ -307,14 +301,14 @@ inline void Association::ScanRow(const Vector3f& point, int row, const ColumnRan
   if (first_column > last_column) return;
   const int begin = bucket_begin_[BucketOf(row, first_column)];
   const int end = bucket_begin_[BucketOf(row, last_column + 1)];
-  constexpr IntLanes kLaneIndex = {0, 1, 2, 3, 4, 5, 6, 7};
+  const IntLanes lane_index = CountFrom(0);
   for (int first = begin; first < end; first += kLanes) {
     const FloatLanes dx = LoadLanes<FloatLanes>(sorted_.x, first) - point.x();
     const FloatLanes dy = LoadLanes<FloatLanes>(sorted_.y, first) - point.y();
     const FloatLanes dz = LoadLanes<FloatLanes>(sorted_.z, first) - point.z();
     const auto slots = LoadLanes<IntLanes>(sorted_slots_, first);
     const FloatLanes squared =
-        kLaneIndex < end - first ? dx * dx + dy * dy + dz * dz : FloatLanes{} + kInfinity;
+        lane_index < end - first ? dx * dx + dy * dy + dz * dz : FloatLanes{} + kInfinity;
     const IntLanes better =
         (squared < best.squared) | ((squared == best.squared) & (slots < best.slot));
     best.second = Min(best.second, Max(best.squared, squared));

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstring>
 
 #include "methods/dynamic/surface.h"
 
@@ -17,13 +16,7 @@ using SlotLanes = std::array<int, kLanes>;
 template <class Scalar>
 [[gnu::always_inline]] inline Lanes<Scalar> Load(const std::vector<Scalar>& column,
                                                  const SlotLanes& slots) {
-  const Scalar* numbers = column.data();
-  return Lanes<Scalar>{numbers[slots[0]], numbers[slots[1]], numbers[slots[2]], numbers[slots[3]],
-                       numbers[slots[4]], numbers[slots[5]], numbers[slots[6]], numbers[slots[7]]};
-}
-template <class Scalar>
-void Store(const Lanes<Scalar>& values, int slot, std::vector<Scalar>& column) {
-  std::memcpy(&column[slot], &values, sizeof values);
+  return Gather(column.data(), slots);
 }
 
 // Eight 3-vectors. They are loaded from eight slots side by side, given by the first one, or from
@@ -38,9 +31,9 @@ struct LaneVector {
             dynamic::Load<Scalar>(columns.z, slots)};
   }
   void Store(int slot, Columns<Scalar>& columns) const {
-    dynamic::Store<Scalar>(x, slot, columns.x);
-    dynamic::Store<Scalar>(y, slot, columns.y);
-    dynamic::Store<Scalar>(z, slot, columns.z);
+    StoreLanes(x, slot, columns.x);
+    StoreLanes(y, slot, columns.y);
+    StoreLanes(z, slot, columns.z);
   }
 };
 

@@ -83,6 +83,7 @@ class PoseFitter {
                                  const RenderedView& view);
   void AverageDepth(const Observation& observation, const PosedSurface& surface,
                     const RenderedView& view);
+  void SharePixels(const PosedSurface& surface);
   const std::vector<Pair>& Correspond(const Observation& observation, const PosedSurface& surface,
                                       const RenderedView& view,
                                       const Classification& classification,
