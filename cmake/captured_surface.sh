@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# Makes the sequence of the captured surface (configs/imports/crane.json) below out/captured/crane:
-# meshes, a space of bodies to compare with, the rigged subject, depth. What is there stays.
+# Makes the sequences of the captured surface (configs/imports/crane*.json) below
+# out/captured/crane: meshes, a space of bodies to compare with, the rigged subject, depth. What is
+# there stays.
 # usage: captured_surface.sh PROGRAM
 set -euo pipefail
 program=$1
 data=${VITRUVIA_DATA:-}/real_surfaces
 folder=out/captured/crane
-[ -e $folder/sequence/sequence.json ] && exit 0
+[ -e $folder/kinect_one/sequence.json ] && exit 0
 if [ -z "${VITRUVIA_DATA:-}" ] || ! [ -e "$data/crane" -o -e "$data/unpack.py" ]; then
   echo "The captured surface is left out: expected its meshes in \$VITRUVIA_DATA/real_surfaces/crane," \
        "or unpack.py beside them; VITRUVIA_DATA is '${VITRUVIA_DATA:-}'." >&2
@@ -27,10 +28,17 @@ fi
 [ -e $folder/space ] || $program learn shape configs/learning/mannequin_small.json -o $folder/space
 [ -e $folder/subject ] ||
   $program rig $folder/meshes --space $folder/space --height 1.81 --sex male -o $folder/subject
-# From the frame on in which a search finds him: side on with raised forearms, as he begins, he is
-# not told from other poses, and methods would search for a second in each frame.
+# For figures of all methods: from the frame on in which each method's search finds him. Side on with
+# raised forearms, as he begins, some would search for a second in each frame.
 first=49
-rm -rf $folder/frames
-mkdir $folder/frames
-for mesh in $(ls $folder/meshes | tail -n +$first); do ln -s ../meshes/$mesh $folder/frames/; done
-$program import meshes configs/imports/crane.json -o $folder/sequence
+if ! [ -e $folder/sequence/sequence.json ]; then
+  rm -rf $folder/frames
+  mkdir $folder/frames
+  for mesh in $(ls $folder/meshes | tail -n +$first); do ln -s ../meshes/$mesh $folder/frames/; done
+  $program import meshes configs/imports/crane.json -o $folder/sequence
+fi
+# For configs/captured/crane.json: all frames.
+for sensor in ideal kinect_v1 kinect_one; do
+  [ -e $folder/$sensor/sequence.json ] ||
+    $program import meshes configs/imports/crane_$sensor.json -o $folder/$sensor
+done
