@@ -113,6 +113,8 @@ const std::map<std::string, Change>& Changes() {
   static const std::map<std::string, Change> changes = {
       {"cloud.stride", {3}},
       {"cloud.max_depth_m", {2.8}},
+      {"cloud.least_neighbors", {6}},
+      {"cloud.neighbor_within_m", {0.01, At("cloud.least_neighbors", 6)}},
       {"fit.surface_residual", {"depth"}},
       {"fit.pair_residual", {"plane"}},
       {"fit.visibility_iterations", {1}},

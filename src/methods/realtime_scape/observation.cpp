@@ -1,5 +1,7 @@
 #include "methods/realtime_scape/observation.h"
 
+#include "geometry/flying_pixels.h"
+
 namespace vitruvia::realtime_scape {
 
 Observer::Observer(const PinholeCamera& camera, const Settings& settings)
@@ -10,8 +12,13 @@ Observer::Observer(const PinholeCamera& camera, const Settings& settings)
 
 const Observation& Observer::Observe(const DepthImage& depth) {
   observation_.depth = &depth;
-  CloudFromDepth(depth, camera_, settings_.stride, static_cast<float>(settings_.max_depth_m),
-                 observation_.cloud);
+  if (settings_.least_neighbors > 0) {
+    RemoveFlyingPixels(depth, settings_.least_neighbors,
+                       static_cast<float>(settings_.neighbor_within_m), without_flying_);
+    observation_.depth = &without_flying_;
+  }
+  CloudFromDepth(*observation_.depth, camera_, settings_.stride,
+                 static_cast<float>(settings_.max_depth_m), observation_.cloud);
   if (!observation_.cloud.points.empty()) observation_.near_cloud->Build(observation_.cloud.points);
   return observation_;
 }

@@ -10,8 +10,8 @@
 namespace vitruvia::realtime_scape {
 
 struct Observation {
-  const DepthImage* depth = nullptr;             // the frame's; metres, 0: no measurement
-  PointCloud cloud;                              // P
+  const DepthImage* depth = nullptr;  // the frame's, without flying pixels if they are removed
+  PointCloud cloud;                   // P
   std::unique_ptr<NearestNeighbors> near_cloud;  // of the cloud's points
 };
 
@@ -25,7 +25,9 @@ class Observer {
  private:
   PinholeCamera camera_;
   CloudSettings settings_;
-  Observation observation_;  // kept between frames to avoid allocation
+  // Kept between frames to avoid allocation.
+  DepthImage without_flying_;
+  Observation observation_;
 };
 
 }  // namespace vitruvia::realtime_scape

@@ -12,6 +12,25 @@ void CloudSettings::Describe(Fields& f) {
        .origin = Origin::kPaper,
        .source = "paper A, sec. 6.2: half resolution"});
   DescribeMaxDepth(f, max_depth_m);
+  f.Integer(
+      "least_neighbors", least_neighbors,
+      {.meaning =
+           "a pixel is a measurement only if at least this many of the eight pixels "
+           "round it hold a similar depth; others are flying pixels, which "
+           "time-of-flight cameras measure at edges between two surfaces (3 for a Kinect One); "
+           "0: all are",
+       .min = 0,
+       .max = 8,
+       .origin = Origin::kPaper,
+       .source = "paper A: 0"});
+  if (!f.Applies(least_neighbors > 0)) return;
+  f.Number("neighbor_within_m", neighbor_within_m,
+           {.meaning = "largest difference of two similar depths",
+            .unit = "m",
+            .min = 1e-4,
+            .max = 1,
+            .origin = Origin::kGuessed,
+            .source = "as fit.near_surface_m"});
 }
 
 void MotionSettings::Describe(Fields& f) {

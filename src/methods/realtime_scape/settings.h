@@ -65,6 +65,8 @@ enum class JointRows {
 struct CloudSettings {
   int stride = 2;            // pixels
   double max_depth_m = 8.0;  // metres
+  int least_neighbors = 0;   // 0: flying pixels are kept
+  double neighbor_within_m = 0.05;
   void Describe(Fields& fields);
 };
 
