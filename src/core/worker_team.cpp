@@ -1,11 +1,39 @@
 #include "core/worker_team.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "core/error.h"
 
 namespace vitruvia {
+namespace {
+
+// How long a thread looks for a change before it sleeps. Between two loops of a frame less passes.
+constexpr std::chrono::microseconds kLongestLook{500};
+constexpr int kLooksBetweenYields = 64;
+
+void Pause() {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#endif
+}
+
+// Returns when the number is no longer `old`. Other programs may take the processor meanwhile.
+template <class Number>
+void WaitForChange(const std::atomic<Number>& number, Number old) {
+  const auto end = std::chrono::steady_clock::now() + kLongestLook;
+  do {
+    for (int look = 0; look < kLooksBetweenYields; ++look) {
+      if (number != old) return;
+      Pause();
+    }
+    std::this_thread::yield();
+  } while (std::chrono::steady_clock::now() < end);
+  number.wait(old);
+}
+
+}  // namespace
 
 WorkerTeam::WorkerTeam(int threads) {
   Require(threads >= 1, "WorkerTeam of {} threads, expected 1 or more", threads);
@@ -14,9 +42,17 @@ WorkerTeam::WorkerTeam(int threads) {
 
 WorkerTeam::~WorkerTeam() {
   stop_ = true;
+  Notify();
+  for (std::thread& helper : helpers_) helper.join();
+}
+
+void WorkerTeam::WakeUp() {
+  if (!helpers_.empty()) Notify();
+}
+
+void WorkerTeam::Notify() {
   ++generation_;
   generation_.notify_all();
-  for (std::thread& helper : helpers_) helper.join();
 }
 
 void WorkerTeam::Run(int count, int grain, const void* body, Call call) {
@@ -33,18 +69,17 @@ void WorkerTeam::Run(int count, int grain, const void* body, Call call) {
   grain_ = grain;
   next_ = 0;
   helpers_inside_ = 0;
-  ++generation_;
-  generation_.notify_all();
+  Notify();
   TakeRanges();
   int inside = helpers_inside_.fetch_or(kClosed) | kClosed;
-  for (; inside != kClosed; inside = helpers_inside_) helpers_inside_.wait(inside);
+  for (; inside != kClosed; inside = helpers_inside_) WaitForChange(helpers_inside_, inside);
   if (problem_) std::rethrow_exception(std::exchange(problem_, nullptr));
 }
 
 void WorkerTeam::Help() {
   unsigned seen = 0;
   while (true) {
-    generation_.wait(seen);
+    WaitForChange(generation_, seen);
     seen = generation_;
     if (stop_) return;
     if (!Enter()) continue;
