@@ -9,8 +9,10 @@
 namespace vitruvia {
 namespace {
 
-// How long a thread looks for a change before it sleeps. Between two loops of a frame less passes.
-constexpr std::chrono::microseconds kLongestLook{500};
+// How long a helper looks for the next loop before it sleeps: between two loops of a frame less
+// passes. And the caller for the end of the last ranges: a longer wait means that a helper has lost
+// its core, which the caller gives to it by sleeping.
+constexpr std::chrono::microseconds kLookForLoop{500}, kLookForEnd{100};
 constexpr int kLooksBetweenYields = 64;
 
 void Pause() {
@@ -21,8 +23,9 @@ void Pause() {
 
 // Returns when the number is no longer `old`. Other programs may take the processor meanwhile.
 template <class Number>
-void WaitForChange(const std::atomic<Number>& number, Number old) {
-  const auto end = std::chrono::steady_clock::now() + kLongestLook;
+void WaitForChange(const std::atomic<Number>& number, Number old,
+                   std::chrono::microseconds longest_look) {
+  const auto end = std::chrono::steady_clock::now() + longest_look;
   do {
     for (int look = 0; look < kLooksBetweenYields; ++look) {
       if (number != old) return;
@@ -72,14 +75,15 @@ void WorkerTeam::Run(int count, int grain, const void* body, Call call) {
   Notify();
   TakeRanges();
   int inside = helpers_inside_.fetch_or(kClosed) | kClosed;
-  for (; inside != kClosed; inside = helpers_inside_) WaitForChange(helpers_inside_, inside);
+  for (; inside != kClosed; inside = helpers_inside_)
+    WaitForChange(helpers_inside_, inside, kLookForEnd);
   if (problem_) std::rethrow_exception(std::exchange(problem_, nullptr));
 }
 
 void WorkerTeam::Help() {
   unsigned seen = 0;
   while (true) {
-    WaitForChange(generation_, seen);
+    WaitForChange(generation_, seen, kLookForLoop);
     seen = generation_;
     if (stop_) return;
     if (!Enter()) continue;

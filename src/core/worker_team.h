@@ -13,8 +13,8 @@ namespace vitruvia {
 // Runs loops on a fixed number of threads, the caller's included. A team belongs to one caller at a
 // time.
 //
-// A sleeping thread takes longer to wake up than a short loop takes. Helpers therefore go on looking
-// for the next loop for some time, and sleep without using the processor only then.
+// A sleeping thread takes longer to wake up than a short loop takes. Helpers therefore look for the
+// next loop for half a millisecond before they sleep without using the processor.
 class WorkerTeam {
  public:
   explicit WorkerTeam(int threads);  // ≥ 1
