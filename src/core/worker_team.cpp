@@ -1,11 +1,42 @@
 #include "core/worker_team.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "core/error.h"
 
 namespace vitruvia {
+namespace {
+
+// How long a helper looks for the next loop before it sleeps: between two loops of a frame less
+// passes. And the caller for the end of the last ranges: a longer wait means that a helper has lost
+// its core, which the caller gives to it by sleeping.
+constexpr std::chrono::microseconds kLookForLoop{500}, kLookForEnd{100};
+constexpr int kLooksBetweenYields = 64;
+
+void Pause() {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#endif
+}
+
+// Returns when the number is no longer `old`. Other programs may take the processor meanwhile.
+template <class Number>
+void WaitForChange(const std::atomic<Number>& number, Number old,
+                   std::chrono::microseconds longest_look) {
+  const auto end = std::chrono::steady_clock::now() + longest_look;
+  do {
+    for (int look = 0; look < kLooksBetweenYields; ++look) {
+      if (number != old) return;
+      Pause();
+    }
+    std::this_thread::yield();
+  } while (std::chrono::steady_clock::now() < end);
+  number.wait(old);
+}
+
+}  // namespace
 
 WorkerTeam::WorkerTeam(int threads) {
   Require(threads >= 1, "WorkerTeam of {} threads, expected 1 or more", threads);
@@ -14,9 +45,17 @@ WorkerTeam::WorkerTeam(int threads) {
 
 WorkerTeam::~WorkerTeam() {
   stop_ = true;
+  Notify();
+  for (std::thread& helper : helpers_) helper.join();
+}
+
+void WorkerTeam::WakeUp() {
+  if (!helpers_.empty()) Notify();
+}
+
+void WorkerTeam::Notify() {
   ++generation_;
   generation_.notify_all();
-  for (std::thread& helper : helpers_) helper.join();
 }
 
 void WorkerTeam::Run(int count, int grain, const void* body, Call call) {
@@ -33,18 +72,18 @@ void WorkerTeam::Run(int count, int grain, const void* body, Call call) {
   grain_ = grain;
   next_ = 0;
   helpers_inside_ = 0;
-  ++generation_;
-  generation_.notify_all();
+  Notify();
   TakeRanges();
   int inside = helpers_inside_.fetch_or(kClosed) | kClosed;
-  for (; inside != kClosed; inside = helpers_inside_) helpers_inside_.wait(inside);
+  for (; inside != kClosed; inside = helpers_inside_)
+    WaitForChange(helpers_inside_, inside, kLookForEnd);
   if (problem_) std::rethrow_exception(std::exchange(problem_, nullptr));
 }
 
 void WorkerTeam::Help() {
   unsigned seen = 0;
   while (true) {
-    generation_.wait(seen);
+    WaitForChange(generation_, seen, kLookForLoop);
     seen = generation_;
     if (stop_) return;
     if (!Enter()) continue;

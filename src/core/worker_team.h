@@ -10,8 +10,11 @@
 
 namespace vitruvia {
 
-// Runs loops on a fixed number of threads, the caller's included. Threads wait between loops
-// without using the processor. A team belongs to one caller at a time.
+// Runs loops on a fixed number of threads, the caller's included. A team belongs to one caller at a
+// time.
+//
+// A sleeping thread takes longer to wake up than a short loop takes. Helpers therefore look for the
+// next loop for half a millisecond before they sleep without using the processor.
 class WorkerTeam {
  public:
   explicit WorkerTeam(int threads);  // ≥ 1
@@ -20,6 +23,9 @@ class WorkerTeam {
   WorkerTeam& operator=(const WorkerTeam&) = delete;
 
   int threads() const { return static_cast<int>(helpers_.size()) + 1; }
+
+  // Wakes up helpers that sleep, for a loop that follows soon.
+  void WakeUp();
 
   // Calls body(begin, end) for the ranges 0 … grain, grain … 2·grain, … of 0 … count, each once, in
   // any order and on any thread. The ranges depend on count and grain alone: a sum is the same for
@@ -44,6 +50,7 @@ class WorkerTeam {
   static constexpr int kRanges = 32;
   using Call = void (*)(const void* body, int begin, int end);
 
+  void Notify();
   void Run(int count, int grain, const void* body, Call call);
   void Help();
   bool Enter();

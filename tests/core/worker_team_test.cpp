@@ -1,9 +1,11 @@
 #include "core/worker_team.h"
 
 #include <algorithm>
+#include <chrono>
 #include <numeric>
 #include <set>
 #include <stdexcept>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -66,6 +68,19 @@ TEST(WorkerTeam, CarriesOutManyShortLoops) {
     team.For(16, 1, [&](int begin, int) { ++visits[begin]; });
   }
   EXPECT_EQ(visits, std::vector<int>(16, 2000));
+}
+
+TEST(WorkerTeam, WakesUpForNothingAndAfterSleeping) {
+  for (const int threads : {1, 2, 3}) {
+    WorkerTeam team(threads);
+    std::vector<int> visits(16, 0);
+    for (int loop = 0; loop < 20; ++loop) {
+      team.WakeUp();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));  // helpers fall asleep again
+      team.For(16, 1, [&](int begin, int) { ++visits[begin]; });
+    }
+    EXPECT_EQ(visits, std::vector<int>(16, 20));
+  }
 }
 
 TEST(WorkerTeam, ThrowsAgainWhatABodyThrewAndGoesOn) {

@@ -14,7 +14,7 @@ namespace {
 constexpr float kNearest_m = 0.05f;    // vertices nearer to the camera are not projected
 constexpr float kRounding_px = 1e-2f;  // margin of the search for rounding errors
 constexpr float kRoundedDown = 1.0f - 1e-5f, kRoundedUp = 1.0f + 1e-5f;
-constexpr int kPointsPerRange = 512;  // a multiple of kLanes
+constexpr int kTileRowsPerRange = 4;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 void FillRays(double focal_px, double center_px, int window_px, std::vector<float>& rays) {
@@ -44,14 +44,16 @@ Association::Association(const PinholeCamera& camera, const SurfaceLayout& layou
     : camera_(camera),
       layout_(&layout),
       buckets_(layout.slot_count() + kLanes, -1),
-      moved_m2_(layout.slot_count(), 0.0f),
       facing_(layout.slot_count()),
+      facing_buckets_(layout.slot_count()),
+      facing_moved_m2_(layout.slot_count()),
       arrived_(layout.slot_count()),
       views_(layout.patches.size()),
       tile_boxes_(camera.width, camera.height),
       stride_(camera.width + 1),
       motions_(stride_, camera.height),
       bucket_begin_(static_cast<std::size_t>(stride_) * camera.height, 0),
+      tile_row_entries_(camera.height / TileBoxes::kTile_px + 1),
       column_ray_(camera.width),
       row_ray_(camera.height) {
   projected_.Resize(layout.slot_count() + kLanes);
@@ -96,7 +98,7 @@ void Association::ProjectPatch(int patch, const Surface<float>& surface,
   const int begin = layout_->patches[patch].begin, end = layout_->patches[patch].end;
   LaneRange buckets, columns;
   FloatLanes farthest_moved{};
-  int arrived = 0;
+  int arrived = 0, facing = begin;
   for (int slot = begin; slot < end; slot += kLanes) {
     const auto x = LoadLanes<FloatLanes>(surface.posed.x, slot),
                y = LoadLanes<FloatLanes>(surface.posed.y, slot),
@@ -121,10 +123,13 @@ void Association::ProjectPatch(int patch, const Surface<float>& surface,
                      dz = z - LoadLanes<FloatLanes>(projected_.z, slot);
     const IntLanes had_pixel = LoadLanes<IntLanes>(buckets_, slot) >= 0;
     const FloatLanes moved = dx * dx + dy * dy + dz * dz;
-    StoreLanes(had_pixel ? moved : FloatLanes{} + kInfinity, slot, moved_m2_);
     farthest_moved = Max(farthest_moved, usable & had_pixel ? moved : FloatLanes{});
     for (unsigned bits = Bits(usable & ~had_pixel); bits != 0; bits &= bits - 1)
       arrived_[begin + arrived++] = slot + std::countr_zero(bits);
+    // Further lanes fall on entries of slots that follow in the patch, or on the slot's own.
+    Compress(CountFrom(slot), usable, &facing_[facing]);
+    Compress(had_pixel ? moved : FloatLanes{} + kInfinity, usable, &facing_moved_m2_[facing]);
+    facing += static_cast<int>(Compress(bucket, usable, &facing_buckets_[facing]));
     StoreLanes(bucket, slot, buckets_);
     StoreLanes(x, slot, projected_.x);
     StoreLanes(y, slot, projected_.y);
@@ -132,24 +137,13 @@ void Association::ProjectPatch(int patch, const Surface<float>& surface,
     buckets.Add(bucket, usable);
     columns.Add(column, usable);
   }
-  views_[patch] = {ListFacing(begin, end),
+  views_[patch] = {facing - begin,
                    buckets.Lowest(),
                    buckets.Highest(),
                    columns.Lowest(),
                    columns.Highest(),
                    arrived,
                    -SmallestLane(-farthest_moved)};
-}
-
-// Lists the slots of a patch that have a bucket, without branches, to avoid mispredictions. Returns
-// their number.
-int Association::ListFacing(int begin, int end) {
-  int count = 0;
-  for (int slot = begin; slot < end; ++slot) {
-    facing_[begin + count] = slot;
-    count += buckets_[slot] >= 0 ? 1 : 0;
-  }
-  return count;
 }
 
 PixelBox Association::FindBox() const {
@@ -183,102 +177,135 @@ void Association::CollectArrivals() {
   farthest_moved_m_ = kRoundedUp * std::sqrt(moved_m2);
 }
 
-// Calls body(slot, bucket) for the facing slots of the rows begin … end, patch after patch.
+// Each part takes about the same number of slots.
+void Association::DividePatches(int parts) {
+  if (static_cast<int>(parts_.size()) == parts) return;
+  parts_.resize(parts);
+  int patch = 0;
+  for (int i = 0; i < parts; ++i) {
+    parts_[i].entries.assign(bucket_begin_.size(), 0);
+    parts_[i].first_patch = patch;
+    const std::int64_t end_slot = std::int64_t{layout_->slot_count()} * (i + 1) / parts;
+    while (patch < static_cast<int>(views_.size()) && layout_->patches[patch].begin < end_slot)
+      ++patch;
+    parts_[i].end_patch = patch;
+  }
+}
+
+// Calls body(slot, bucket, motion) for the facing slots of a part.
 template <class Body>
-void Association::ForEachFacingSlot(int begin_row, int end_row, const Body& body) const {
-  const int begin = BucketOf(begin_row, 0), end = BucketOf(end_row, 0);
-  for (std::size_t patch = 0; patch < views_.size(); ++patch) {
-    const PatchView& view = views_[patch];
-    if (view.facing == 0 || view.highest_bucket < begin || view.lowest_bucket >= end) continue;
+void Association::ForEachFacingSlot(const Part& part, const Body& body) const {
+  for (int patch = part.first_patch; patch < part.end_patch; ++patch) {
     const int first = layout_->patches[patch].begin;
-    for (int i = first; i < first + view.facing; ++i) {
-      const int bucket = buckets_[facing_[i]];
-      if (bucket >= begin && bucket < end) body(facing_[i], bucket);
+    for (int i = first; i < first + views_[patch].facing; ++i)
+      body(facing_[i], facing_buckets_[i], facing_moved_m2_[i]);
+  }
+}
+
+// First pass of a counting sort: the number of a part's slots in each bucket, and their motions.
+void Association::CountBuckets(int part) {
+  std::vector<int>& entries = parts_[part].entries;
+  const int buckets = box_.last_column + 2 - box_.first_column;
+  for (int row = box_.first_row; row <= box_.last_row; ++row)
+    std::fill_n(&entries[BucketOf(row, box_.first_column)], buckets, 0);
+  motions_.Reset(part);
+  ForEachFacingSlot(parts_[part], [&](int, int bucket, float moved_m2) {
+    ++entries[bucket];
+    motions_.Note(part, bucket, moved_m2);
+  });
+}
+
+// The number of entries of some rows.
+int Association::CountTileRow(const PixelRows& rows) const {
+  int sum = 0;
+  for (const Part& part : parts_) {
+    for (int row = rows.begin; row < rows.end; ++row) {
+      const auto first = part.entries.begin() + BucketOf(row, box_.first_column);
+      sum = std::accumulate(first, first + box_.last_column + 1 - box_.first_column, sum);
+    }
+  }
+  return sum;
+}
+
+// Turns the numbers of some rows into ends. In a bucket the first part's entries are the last.
+void Association::PlaceBuckets(const PixelRows& rows, int first_entry) {
+  int end = first_entry;
+  for (int row = rows.begin; row < rows.end; ++row) {
+    const int last = BucketOf(row, box_.last_column + 1);
+    for (int bucket = BucketOf(row, box_.first_column); bucket <= last; ++bucket) {
+      bucket_begin_[bucket] = end;
+      for (auto part = parts_.rbegin(); part != parts_.rend(); ++part)
+        part->entries[bucket] = end += part->entries[bucket];
     }
   }
 }
 
-// First pass of a counting sort: the size of each bucket of the rows begin … end, and the motions
-// of their slots. Returns the number of slots.
-int Association::CountBuckets(int begin_row, int end_row) {
-  const int buckets = box_.last_column + 2 - box_.first_column;
-  for (int row = begin_row; row < end_row; ++row)
-    std::fill_n(&bucket_begin_[BucketOf(row, box_.first_column)], buckets, 0);
-  int entries = 0;
-  ForEachFacingSlot(begin_row, end_row, [&](int slot, int bucket) {
-    ++bucket_begin_[bucket];
-    ++entries;
-    motions_.Note(bucket, moved_m2_[slot]);
-  });
-  return entries;
-}
-
-// Second pass: turns the sizes into ends, then writes the entries, which turns ends into begins.
-void Association::SortIntoBuckets(int begin_row, int end_row, int first_entry) {
-  int end = first_entry;
-  for (int row = begin_row; row < end_row; ++row) {
-    const int last = BucketOf(row, box_.last_column + 1);
-    for (int bucket = BucketOf(row, box_.first_column); bucket <= last; ++bucket)
-      bucket_begin_[bucket] = end += bucket_begin_[bucket];
-  }
-  ForEachFacingSlot(begin_row, end_row, [&](int slot, int bucket) {
-    const int at = --bucket_begin_[bucket];
+// Last pass: writes a part's entries.
+void Association::SortIntoBuckets(Part& part) {
+  ForEachFacingSlot(part, [&](int slot, int bucket, float) {
+    const int at = --part.entries[bucket];
     sorted_.Set(at, projected_.At(slot));
     sorted_slots_[at] = slot;
   });
 }
 
-// The boxes of the sorted slots of the rows begin … end, tile by tile. Whole lanes are read: the
-// next entries may widen a box.
-void Association::BoundTiles(int begin_row, int end_row) {
+Association::PixelRows Association::RowsOfTile(int tile_row) const {
   constexpr int kTile = TileBoxes::kTile_px;
-  for (int tile_row = begin_row / kTile; tile_row * kTile < end_row; ++tile_row) {
-    const int first_row = std::max(tile_row * kTile, begin_row);
-    const int last_row = std::min((tile_row + 1) * kTile, end_row) - 1;
-    for (int tile = box_.first_column / kTile; tile <= box_.last_column / kTile; ++tile) {
-      const int first_column = std::max(tile * kTile, box_.first_column);
-      const int last_column = std::min((tile + 1) * kTile - 1, box_.last_column);
-      const FloatLanes infinity = FloatLanes{} + kInfinity;
-      PointLanes lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};
-      for (int row = first_row; row <= last_row; ++row) {
-        const int end = bucket_begin_[BucketOf(row, last_column + 1)];
-        for (int at = bucket_begin_[BucketOf(row, first_column)]; at < end; at += kLanes) {
-          const auto x = LoadLanes<FloatLanes>(sorted_.x, at);
-          const auto y = LoadLanes<FloatLanes>(sorted_.y, at);
-          const auto z = LoadLanes<FloatLanes>(sorted_.z, at);
-          lower = {Min(lower.x, x), Min(lower.y, y), Min(lower.z, z)};
-          upper = {Max(upper.x, x), Max(upper.y, y), Max(upper.z, z)};
-        }
+  return {std::max(tile_row * kTile, box_.first_row),
+          std::min((tile_row + 1) * kTile, box_.last_row + 1)};
+}
+
+// The boxes of the sorted slots of a row of tiles. Whole lanes are read: the next entries may widen
+// a box.
+void Association::BoundTiles(int tile_row) {
+  constexpr int kTile = TileBoxes::kTile_px;
+  const PixelRows rows = RowsOfTile(tile_row);
+  for (int tile = box_.first_column / kTile; tile <= box_.last_column / kTile; ++tile) {
+    const int first_column = std::max(tile * kTile, box_.first_column);
+    const int last_column = std::min((tile + 1) * kTile - 1, box_.last_column);
+    const FloatLanes infinity = FloatLanes{} + kInfinity;
+    PointLanes lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};
+    for (int row = rows.begin; row < rows.end; ++row) {
+      const int end = bucket_begin_[BucketOf(row, last_column + 1)];
+      for (int at = bucket_begin_[BucketOf(row, first_column)]; at < end; at += kLanes) {
+        const auto x = LoadLanes<FloatLanes>(sorted_.x, at);
+        const auto y = LoadLanes<FloatLanes>(sorted_.y, at);
+        const auto z = LoadLanes<FloatLanes>(sorted_.z, at);
+        lower = {Min(lower.x, x), Min(lower.y, y), Min(lower.z, z)};
+        upper = {Max(upper.x, x), Max(upper.y, y), Max(upper.z, z)};
       }
-      tile_boxes_.Set(tile_row, tile, lower, upper);
     }
+    tile_boxes_.Set(tile_row, tile, lower, upper);
   }
 }
 
-// Sorts the slots of all patches into buckets, one for each pixel. Each thread of the team fills
-// those of its share of the rows, whole tiles.
+// Sorts the slots of all patches into buckets, one for each pixel. Each thread of the team counts
+// and writes those of its share of the patches; between these, the rows of tiles are shared out.
 void Association::FillBuckets(WorkerTeam& team) {
   box_ = FindBox();
   CollectArrivals();
-  motions_.Reset(box_);
-  constexpr int kTile = TileBoxes::kTile_px;
+  DividePatches(team.threads());
   const int parts = team.threads();
-  const int first_tile = box_.first_row / kTile, tiles = box_.last_row / kTile + 1 - first_tile;
-  const auto first_row = [&](int part) {
-    return std::clamp((first_tile + tiles * part / parts) * kTile, box_.first_row,
-                      box_.last_row + 1);
+  motions_.Reset(box_, parts);
+  team.For(parts, 1, [&](int part, int) { CountBuckets(part); });
+  constexpr int kTile = TileBoxes::kTile_px;
+  const int first_tile = box_.first_row / kTile;
+  const int tile_rows = box_.last_row < 0 ? 0 : box_.last_row / kTile + 1 - first_tile;
+  const auto for_tile_rows = [&](const auto& body) {
+    team.For(tile_rows, kTileRowsPerRange, [&](int begin, int end) {
+      for (int i = begin; i < end; ++i) body(first_tile + i);
+    });
   };
-  part_entries_.resize(parts);
-  team.For(parts, 1, [&](int part, int next) {
-    part_entries_[part] = CountBuckets(first_row(part), first_row(next));
+  for_tile_rows([&](int i) { tile_row_entries_[i] = CountTileRow(RowsOfTile(i)); });
+  const auto entries = tile_row_entries_.begin() + first_tile;
+  std::exclusive_scan(entries, entries + tile_rows, entries, 0);
+  for_tile_rows([&](int i) {
+    const PixelRows rows = RowsOfTile(i);
+    PlaceBuckets(rows, tile_row_entries_[i]);
+    motions_.Spread(rows.begin, rows.end);
   });
-  // The entries of a part follow those of the parts before it.
-  std::exclusive_scan(part_entries_.begin(), part_entries_.end(), part_entries_.begin(), 0);
-  team.For(parts, 1, [&](int part, int next) {
-    SortIntoBuckets(first_row(part), first_row(next), part_entries_[part]);
-  });
-  team.For(parts, 1, [&](int part, int next) { BoundTiles(first_row(part), first_row(next)); });
-  motions_.Spread();
+  team.For(parts, 1, [&](int part, int) { SortIntoBuckets(parts_[part]); });
+  for_tile_rows([&](int i) { BoundTiles(i); });
 }
 
 // Bounds hold for one window: a match may be outside of a smaller one.
@@ -475,15 +502,29 @@ int Association::FindNearestOf(int begin, int end, float cutoff_m) {
   return count;
 }
 
+// The points whose match is one of the slots, without branches, to avoid mispredictions. The lanes
+// that no point fills have no match.
+Association::PointList Association::PointsOf(int first_point, const SlotRange& slots) const {
+  PointList points;
+  const int end = std::min(first_point + kPointsPerRange, point_count_);
+  for (int i = first_point; i < end; i += kLanes) {
+    const auto slot = LoadLanes<IntLanes>(nearest_, i);
+    const IntLanes is_one = (slot >= slots.begin) & (slot < slots.end);
+    points.count += static_cast<int>(Compress(CountFrom(i), is_one, &points.numbers[points.count]));
+  }
+  return points;
+}
+
 void Association::Observe(WorkerTeam& team, Observations<float>& observations) const {
   const int parts = team.threads();
   team.For(parts, 1, [&](int part, int next) {
     const int groups = layout_->slot_count() / kLanes;
     const int begin = groups * part / parts * kLanes, end = groups * next / parts * kLanes;
     observations.Clear(begin, end);
-    for (int i = 0; i < point_count_; ++i) {
-      const int slot = nearest_[i];
-      if (slot >= begin && slot < end) observations.Add(slot, points_.At(i));
+    for (int first = 0; first < point_count_; first += kPointsPerRange) {
+      const PointList points = PointsOf(first, {begin, end});
+      for (int k = 0; k < points.count; ++k)
+        observations.Add(nearest_[points.numbers[k]], points_.At(points.numbers[k]));
     }
   });
 }

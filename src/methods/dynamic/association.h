@@ -9,6 +9,7 @@
 // while the bound of all vertices, less the largest motion in the image, is beyond the cutoff.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -75,16 +76,36 @@ class Association {
     float moved_m2 = 0.0f;  // the farthest motion of the others
   };
 
+  // A share of the patches, sorted into buckets by one thread.
+  struct Part {
+    int first_patch = 0, end_patch = 0;
+    std::vector<int> entries;  // per bucket: their number, then the end of those not yet written
+  };
+  struct PixelRows {
+    int begin, end;
+  };
+  struct SlotRange {
+    int begin, end;
+  };
+  static constexpr int kPointsPerRange = 256;  // a multiple of kLanes
+  struct PointList {
+    int count = 0;
+    std::array<int, kPointsPerRange + kLanes> numbers;  // followed by room for whole lanes
+  };
+
   int BucketOf(int row, int column) const { return row * stride_ + column; }
-  int ListFacing(int begin, int end);
   PixelBox FindBox() const;
   void CollectArrivals();
   void FillBuckets(WorkerTeam& team);
+  void DividePatches(int parts);
   template <class Body>
-  void ForEachFacingSlot(int begin_row, int end_row, const Body& body) const;
-  int CountBuckets(int begin_row, int end_row);
-  void SortIntoBuckets(int begin_row, int end_row, int first_entry);
-  void BoundTiles(int begin_row, int end_row);
+  void ForEachFacingSlot(const Part& part, const Body& body) const;
+  void CountBuckets(int part);
+  int CountTileRow(const PixelRows& rows) const;
+  void PlaceBuckets(const PixelRows& rows, int first_entry);
+  void SortIntoBuckets(Part& part);
+  PixelRows RowsOfTile(int tile_row) const;
+  void BoundTiles(int tile_row);
   void SetWindow(int window_px);
   int FindNearestOf(int begin, int end, float cutoff_m);
   unsigned KeepProven(int first_point, float cutoff_m);
@@ -92,6 +113,7 @@ class Association {
   Match Search(int point, float cutoff_m) const;
   void SearchFarther(int point, float nearest_m, Best& best) const;
   void ScanRow(const Vector3f& point, int row, const ColumnRange& columns, Best& best) const;
+  PointList PointsOf(int first_point, const SlotRange& slots) const;
   float SquaredDistanceOfMatch(int point) const;
   float NearestBeyond(int point, int pixels) const;
   int ReachOf(int point, float distance_m) const;
@@ -99,10 +121,12 @@ class Association {
   PinholeCamera camera_;
   const SurfaceLayout* layout_;
 
-  std::vector<int> buckets_;      // per slot; −1: without a pixel
-  std::vector<float> moved_m2_;   // per slot: since the last projection; ∞: it had no pixel then
-  Columns<float> projected_;      // per slot: position at the last projection
-  std::vector<int> facing_;       // the slots with a bucket, from each patch's begin on
+  std::vector<int> buckets_;  // per slot; −1: without a pixel
+  Columns<float> projected_;  // per slot: position at the last projection
+  // The slots with a bucket, from each patch's begin on: their numbers, buckets, and motions since
+  // the last projection, ∞ of those that had no pixel then.
+  std::vector<int> facing_, facing_buckets_;
+  std::vector<float> facing_moved_m2_;
   std::vector<int> arrived_;      // those that had none before, likewise
   std::vector<PatchView> views_;  // per patch
   TileBoxes tile_boxes_;
@@ -118,7 +142,8 @@ class Association {
   PixelMotions motions_;
   PixelBox box_;  // of the slots with a bucket
   std::vector<int> bucket_begin_;
-  std::vector<int> part_entries_;  // per thread: the entries of the buckets that it fills
+  std::vector<Part> parts_;            // one for each thread
+  std::vector<int> tile_row_entries_;  // the entries of the buckets before each row of tiles
   Columns<float> sorted_;
   std::vector<int> sorted_slots_;
 

@@ -190,6 +190,7 @@ void Dynamic::ReadClouds(const DepthFrame& frame) {
   Session& s = *session_;
   CheckFrameSize(frame, s.camera);
   s.clock.Restart();
+  s.team.WakeUp();
   s.fine.ReadCloud(frame.depth, s.camera, 1, settings_.max_depth_m);
   if (s.coarse) {
     s.coarse->ReadCloud(frame.depth, s.camera, settings_.association.pose_pixel_stride,

@@ -16,29 +16,41 @@ FloatLanes LargestOfThree(const std::vector<float>& row, int middle) {
 }  // namespace
 
 PixelMotions::PixelMotions(int stride, int height_px)
-    : stride_(stride), before_(kMargin * stride + kMargin) {
-  const auto entries = static_cast<std::size_t>(stride) * (height_px + 2 * kMargin) + 2 * kMargin;
-  for (auto* pixels : {&squared_m2_, &near_m2_}) pixels->assign(entries + kLanes, 0.0f);
+    : stride_(stride),
+      before_(kMargin * stride + kMargin),
+      near_m2_(static_cast<std::size_t>(stride) * (height_px + 2 * kMargin) + 2 * kMargin + kLanes,
+               0.0f) {}
+
+void PixelMotions::Reset(const PixelBox& box, int parts) {
+  box_ = box;
+  squared_m2_.resize(parts);
+  for (auto& part : squared_m2_) part.resize(near_m2_.size(), 0.0f);
 }
 
-void PixelMotions::Reset(const PixelBox& box) {
-  near_box_ = {box.first_row - 1, box.last_row + 1, box.first_column - 1, box.last_column + 1};
-  const int columns = near_box_.last_column + 1 - near_box_.first_column;
-  for (int row = near_box_.first_row - 1; row <= near_box_.last_row + 1; ++row)
-    std::fill_n(&squared_m2_[before_ + row * stride_ + near_box_.first_column - 1], columns + 2,
+// Two pixels round the box are looked at by its neighbours.
+void PixelMotions::Reset(int part) {
+  const int columns = box_.last_column + 1 - box_.first_column + 2 * kMargin;
+  for (int row = box_.first_row - kMargin; row <= box_.last_row + kMargin; ++row)
+    std::fill_n(&squared_m2_[part][before_ + row * stride_ + box_.first_column - kMargin], columns,
                 0.0f);
 }
 
-void PixelMotions::Spread() {
-  for (int row = near_box_.first_row; row <= near_box_.last_row; ++row) {
-    const int begin = before_ + row * stride_ + near_box_.first_column;
-    const int end = before_ + row * stride_ + near_box_.last_column + 1;
-    for (int i = begin; i < end; i += kLanes) {
-      const FloatLanes largest =
-          Max(Max(LargestOfThree(squared_m2_, i - stride_), LargestOfThree(squared_m2_, i)),
-              LargestOfThree(squared_m2_, i + stride_));
-      std::memcpy(&near_m2_[i], &largest, sizeof largest);
+void PixelMotions::Spread(int begin_row, int end_row) {
+  for (int row = begin_row; row < end_row; ++row) SpreadRow(row);
+  if (begin_row == box_.first_row) SpreadRow(begin_row - 1);
+  if (end_row == box_.last_row + 1) SpreadRow(end_row);
+}
+
+void PixelMotions::SpreadRow(int row) {
+  const int begin = before_ + row * stride_ + box_.first_column - 1;
+  const int end = before_ + row * stride_ + box_.last_column + 2;
+  for (int i = begin; i < end; i += kLanes) {
+    FloatLanes largest{};
+    for (const std::vector<float>& part : squared_m2_) {
+      for (const int middle : {i - stride_, i, i + stride_})
+        largest = Max(largest, LargestOfThree(part, middle));
     }
+    std::memcpy(&near_m2_[i], &largest, sizeof largest);
   }
 }
 
