@@ -30,6 +30,12 @@ BodyPose BodyPoseOf(const BoneTransforms& camera_from_rest) {
   return pose;
 }
 
+LimbBody LimbBodyAboutOrigin(const Subject& subject) {
+  std::array<Vector3d, kBoneCount> rest_centers;
+  rest_centers.fill(Vector3d::Zero());
+  return LimbBodyOf(subject.skeleton, rest_centers, subject.rest.vertices, subject.weights);
+}
+
 BoneTransforms BonesOf(const BodyPose& pose) {
   BoneTransforms bones;
   for (const BonePose& bone : pose) bones.push_back({bone.rotation, bone.center});
@@ -86,10 +92,9 @@ struct Dynamic::Session {
                           AreaWatch(settings.watch)});
     }
     if (settings.limbs.min_unexplained_m2 > 0.0) {
-      limbs.emplace(
-          Limbs{{subject, view, kLimbStride_px, settings.max_depth_m, settings.watch.reach_m},
-                {LimbBodyOf(subject.skeleton, {}, subject.rest.vertices, subject.weights), view,
-                 kLimbStride_px, double{kNear_m}, settings.limbs}});
+      limbs.emplace(Limbs{
+          {subject, view, kLimbStride_px, settings.max_depth_m, settings.watch.reach_m},
+          {LimbBodyAboutOrigin(subject), view, kLimbStride_px, double{kNear_m}, settings.limbs}});
     }
     if (settings.start == Start::kSearch || watch) {
       start_search.emplace(subject, view, settings.max_depth_m, settings.start_search);
