@@ -52,6 +52,10 @@ class BodyAreaMeter {
   // `vertices`: the subject's surface in the pose `camera_from_rest` (camera frame, metres).
   BodyAreas Measure(const std::vector<Vector3f>& vertices, const BoneTransforms& camera_from_rest,
                     const DepthImage& depth, const NearnessSettings& nearness);
+  // The points of the last measured frame, and the indices of those that the model does not
+  // explain.
+  const std::vector<Vector3f>& points() const { return cloud_.points; }
+  const std::vector<int>& unexplained() const { return unexplained_; }
   // The depth of only those points of the last measured frame that are out of reach of all bones.
   DepthImage StrayDepth(const DepthImage& depth) const;
 

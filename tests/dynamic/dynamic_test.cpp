@@ -120,6 +120,39 @@ TEST(Dynamic, FollowsAHalfTurnFromOneFrameToTheNextIfFacingIsChecked) {
   EXPECT_LT(ErrorAfterAHalfTurn(FacingSettings{}.margin_m), 0.02);
 }
 
+// Both arms move by 70 degrees from one frame to the next, out of the association's reach.
+std::vector<TrackResult> ResultsOfALeap(double min_unexplained_m2, int threads) {
+  FrameStage stage;
+  Settings settings;
+  settings.limbs.min_unexplained_m2 = min_unexplained_m2;
+  settings.association.cutoff_m = 0.04;
+  settings.threads = threads;
+  Dynamic tracker(settings, HumanSkeleton());
+  tracker.Start(stage.body, stage.camera);
+  std::vector<TrackResult> results;
+  for (int i = 0; i < 6; ++i)
+    results.push_back(tracker.TrackFrame(stage.Frame(i, i < 3 ? 0.0 : 1.2)));
+  return results;
+}
+
+TEST(Dynamic, FindsArmsThatMovedTooFarWithinOneFrameIfLimbsAreSearched) {
+  const FrameStage stage;
+  EXPECT_LT(stage.MeanError(ResultsOfALeap(0.01, 2).back(), 1.2), 0.01);
+  EXPECT_GT(stage.MeanError(ResultsOfALeap(0.0, 2).back(), 1.2), 0.02);
+}
+
+TEST(Dynamic, FindsLimbsWithTheSameBitsOnAnyNumberOfThreads) {
+  const std::vector<TrackResult> expected = ResultsOfALeap(0.01, 1);
+  for (const int threads : {2, 3}) {
+    const std::vector<TrackResult> results = ResultsOfALeap(0.01, threads);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      SCOPED_TRACE(fmt::format("frame {}, {} threads", i, threads));
+      EXPECT_EQ(results[i].vertices, expected[i].vertices);
+      EXPECT_EQ(results[i].condition, expected[i].condition);
+    }
+  }
+}
+
 std::vector<std::string> NamesOf(const std::vector<NamedValue>& energies) {
   std::vector<std::string> names;
   for (const NamedValue& energy : energies) names.push_back(energy.name);

@@ -28,7 +28,7 @@ TEST_F(WithLimb, PutsItsEndAtTheTargetWithEveryJointWhole) {
     const Vector3d root = JointOf(start, Bones()[upper].parent, limb.upper);
     const Vector3d target = root + Vector3d(0.1, -0.25, -0.2);
     for (const double swivel_rad : {0.0, 1.0, 4.0}) {
-      const BodyPose moved = WithLimbAt(model, start, limb, target, swivel_rad);
+      const BodyPose moved = WithLimbAt(LimbBodyOf(model), start, limb, target, swivel_rad);
       EXPECT_LT((JointOf(moved, upper, limb.upper) - root).norm(), 1e-9);
       EXPECT_LT((JointOf(moved, upper, limb.lower) - JointOf(moved, lower, limb.lower)).norm(),
                 1e-9);
@@ -48,7 +48,7 @@ TEST_F(WithLimb, IsStretchedTowardsATargetOutOfReach) {
   const int upper = static_cast<int>(arm.upper), end = static_cast<int>(arm.end);
   const Vector3d root = JointOf(rest, Bones()[upper].parent, arm.upper);
   const Vector3d direction = Vector3d(0.2, 0.5, -0.8).normalized();
-  const BodyPose moved = WithLimbAt(model, rest, arm, root + 3.0 * direction, 0.0);
+  const BodyPose moved = WithLimbAt(LimbBodyOf(model), rest, arm, root + 3.0 * direction, 0.0);
   const Vector3d reached = JointOf(moved, end, arm.end) - root;
   EXPECT_GT(reached.normalized().dot(direction), 1.0 - 1e-9);
   const auto& joints = model.skeleton.joints;

@@ -19,6 +19,29 @@
 namespace vitruvia::dynamic {
 namespace {
 
+constexpr float kNear_m = 0.05f;   // points within the tracker's own cutoff count as explained
+constexpr int kLimbStride_px = 2;  // limbs are searched in half of the rows and columns
+
+// A motion of each bone about the subject's origin.
+BodyPose BodyPoseOf(const BoneTransforms& camera_from_rest) {
+  BodyPose pose;
+  for (int bone = 0; bone < kBoneCount; ++bone)
+    pose[bone] = {camera_from_rest[bone].rotation, camera_from_rest[bone].translation};
+  return pose;
+}
+
+LimbBody LimbBodyAboutOrigin(const Subject& subject) {
+  std::array<Vector3d, kBoneCount> rest_centers;
+  rest_centers.fill(Vector3d::Zero());
+  return LimbBodyOf(subject.skeleton, rest_centers, subject.rest.vertices, subject.weights);
+}
+
+BoneTransforms BonesOf(const BodyPose& pose) {
+  BoneTransforms bones;
+  for (const BonePose& bone : pose) bones.push_back({bone.rotation, bone.center});
+  return bones;
+}
+
 TrackedMesh MeshOf(const Subject& subject, Mode mode) {
   return mode == Mode::kRigid ? RigidSegments(subject) : SmoothMesh(subject);
 }
@@ -68,6 +91,11 @@ struct Dynamic::Session {
       watch.emplace(Watch{{subject, view, 1, settings.max_depth_m, settings.watch.reach_m},
                           AreaWatch(settings.watch)});
     }
+    if (settings.limbs.min_unexplained_m2 > 0.0) {
+      limbs.emplace(Limbs{
+          {subject, view, kLimbStride_px, settings.max_depth_m, settings.watch.reach_m},
+          {LimbBodyAboutOrigin(subject), view, kLimbStride_px, double{kNear_m}, settings.limbs}});
+    }
     if (settings.start == Start::kSearch || watch) {
       start_search.emplace(subject, view, settings.max_depth_m, settings.start_search);
     }
@@ -85,6 +113,12 @@ struct Dynamic::Session {
   struct Watch {
     BodyAreaMeter meter;
     AreaWatch verdict;
+  };
+
+  // Search for limbs, if enabled in the settings.
+  struct Limbs {
+    BodyAreaMeter meter;
+    LimbSearch search;
   };
 
   // Comparison with the other facing, if enabled in the settings.
@@ -121,6 +155,7 @@ struct Dynamic::Session {
   WorkerTeam team;
   std::optional<StartSearch> start_search;
   std::optional<Watch> watch;
+  std::optional<Limbs> limbs;
   std::optional<Facing> facing;
   std::vector<char> all_joints, root_joints;  // per joint: may it move?
 
@@ -174,6 +209,7 @@ TrackResult Dynamic::TrackFrame(const DepthFrame& frame) {
     if (session_->placed) {
       fit = FitPose(is_first);
       if (session_->facing && !is_first) fit = TakeOtherFacing(frame, std::move(fit));
+      if (session_->limbs && !is_first) fit = TakeFoundLimb(frame, std::move(fit));
       FitShape(is_first, fit);
       session_->fine.PoseVertices(session_->pose, session_->team, session_->clock);
       if (session_->watch) WatchAreas(frame);
@@ -242,11 +278,10 @@ void Dynamic::WatchAreas(const DepthFrame& frame) {
   s.clock.Lap(TimedStep::kSolve);
 }
 
-// Points within the tracker's own cutoff count as explained.
 BodyAreas Dynamic::MeasureAreas(const DepthImage& depth) {
-  constexpr float kNear_m = 0.05f;
   Session& s = *session_;
-  return s.watch->meter.Measure(SubjectVertices(), BonesOf(s.pose), depth, {kNear_m, 1, 0.0f});
+  return s.watch->meter.Measure(SubjectVertices(), BonesOf(s.pose), depth,
+                                {kNear_m, settings_.area_edge_px, 0.0f});
 }
 
 const std::vector<Vector3f>& Dynamic::SubjectVertices() {
@@ -319,7 +354,7 @@ Dynamic::FrameFit Dynamic::TakeOtherFacing(const DepthFrame& frame, FrameFit fit
   FrameFit best_fit;
   PoseEquations best_equations;
   for (const TreeStart& start : {turned, away}) {
-    const FrameFit refined = Refine(start);
+    const FrameFit refined = Refine(start, settings_.pose.first_frame_iterations);
     const double reached_m2 = GapTo(frame.depth);
     if (IsLost(refined) || reached_m2 >= least_m2) continue;
     least_m2 = reached_m2;
@@ -341,12 +376,55 @@ Dynamic::FrameFit Dynamic::TakeOtherFacing(const DepthFrame& frame, FrameFit fit
   return fit;
 }
 
+// Tries to put single limbs where the frame shows something that the model does not explain. The
+// refined pose that overlaps best with the frame is kept if it is clearly better than `fit`'s.
+Dynamic::FrameFit Dynamic::TakeFoundLimb(const DepthFrame& frame, FrameFit fit) {
+  Session& s = *session_;
+  if (IsLost(fit)) return fit;
+  double best_overlap = LimbOverlap(frame.depth);
+  const BoneTransforms bones = BonesOf(s.pose);
+  const std::vector<BodyPose> hypotheses = s.limbs->search.Hypotheses(
+      frame.depth, s.limbs->meter.points(), s.limbs->meter.unexplained(), BodyPoseOf(bones));
+  s.clock.Lap(TimedStep::kSolve);
+  if (hypotheses.empty()) return fit;
+
+  const TreeStart current{s.camera_from_start, s.theta};
+  TreeStart best = current;
+  PoseEquations best_equations = s.equations;
+  for (const BodyPose& hypothesis : hypotheses) {
+    const TreeStart start = Approached(s.tree, BonesOf(hypothesis), current);
+    const FrameFit refined = Refine(start, settings_.pose.iterations);
+    const double overlap = LimbOverlap(frame.depth);
+    if (IsLost(refined) || overlap < best_overlap + settings_.limbs.margin) continue;
+    best_overlap = overlap;
+    best = {s.camera_from_start, s.theta};
+    best_equations = s.equations;
+    s.theta_before = best.theta;  // the body is at rest
+    fit = refined;
+  }
+  s.camera_from_start = best.camera_from_start;
+  s.theta = best.theta;
+  s.equations = best_equations;
+  s.tree.Pose(s.camera_from_start, s.theta, s.pose);
+  s.clock.Lap(TimedStep::kSolve);
+  return fit;
+}
+
+// Overlap of the current pose with the frame; the meter keeps which points are unexplained.
+double Dynamic::LimbOverlap(const DepthImage& depth) {
+  Session& s = *session_;
+  s.fine.PoseVertices(s.pose, s.team, s.clock);
+  const BodyAreas areas = s.limbs->meter.Measure(SubjectVertices(), BonesOf(s.pose), depth,
+                                                 {kNear_m, settings_.area_edge_px, 0.0f});
+  s.clock.Lap(TimedStep::kSolve);
+  return areas.overlap();
+}
+
 // Iterates from a hypothesis; the session's pose is the one that is reached.
-Dynamic::FrameFit Dynamic::Refine(const TreeStart& start) {
+Dynamic::FrameFit Dynamic::Refine(const TreeStart& start, int limit) {
   Session& s = *session_;
   s.camera_from_start = start.camera_from_start;
   s.theta = start.theta;
-  const int limit = settings_.pose.first_frame_iterations;
   FrameFit fit;
   while (fit.iterations < limit && !fit.converged && fit.solved) IteratePose(limit, fit);
   s.tree.Pose(s.camera_from_start, s.theta, s.pose);

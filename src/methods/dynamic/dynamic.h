@@ -37,7 +37,9 @@ class Dynamic final : public Tracker {
   BodyAreas MeasureAreas(const DepthImage& depth);
   FrameFit FitPose(bool is_first);
   FrameFit TakeOtherFacing(const DepthFrame& frame, FrameFit fit);
-  FrameFit Refine(const TreeStart& start);
+  FrameFit TakeFoundLimb(const DepthFrame& frame, FrameFit fit);
+  double LimbOverlap(const DepthImage& depth);
+  FrameFit Refine(const TreeStart& start, int limit);
   double GapTo(const DepthImage& depth);
   const std::vector<Vector3<float>>& SubjectVertices();
   void IteratePose(int limit, FrameFit& fit);

@@ -41,10 +41,15 @@ Rigidd UprightPlacement(const std::vector<Vector3f>& rest_vertices,
 }
 
 TreeStart StartFrom(const KinematicTree& tree, const BoneTransforms& camera_from_rest) {
+  return Approached(tree, camera_from_rest,
+                    {camera_from_rest.front(), Eigen::VectorXd::Zero(tree.joint_count())});
+}
+
+TreeStart Approached(const KinematicTree& tree, const BoneTransforms& camera_from_rest,
+                     TreeStart start) {
   constexpr int kIterations = 50;
   constexpr double kDamping = 1e-3;
   const int count = tree.joint_count();
-  TreeStart start{camera_from_rest.front(), Eigen::VectorXd::Zero(count)};
   // The pelvis is in place already.
   const std::vector<int>& root = tree.ChainOf(static_cast<int>(BoneId::kPelvis));
   const auto is_free = [&](int joint) {

@@ -25,5 +25,8 @@ struct TreeStart {
   Eigen::VectorXd theta;
 };
 TreeStart StartFrom(const KinematicTree& tree, const BoneTransforms& camera_from_rest);
+// The same from known joint values near the wanted ones; the pelvis stays where `start` has it.
+TreeStart Approached(const KinematicTree& tree, const BoneTransforms& camera_from_rest,
+                     TreeStart start);
 
 }  // namespace vitruvia::dynamic

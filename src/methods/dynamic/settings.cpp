@@ -201,6 +201,17 @@ void Settings::Describe(Fields& f) {
     f.Section("start_search", start_search,
               {.meaning = "search for the first pose, or for a subject that is not tracked"});
   }
+  f.Section("limbs", limbs, {.meaning = "search for limbs that moved away from the model"});
+  if (f.Applies(watch.lost_above > 0.0 || limbs.min_unexplained_m2 > 0.0)) {
+    f.Integer("area_edge_px", area_edge_px,
+              {.meaning = "where areas are compared, a point counts as explained if the model is "
+                          "near it in depth within this many columns and rows",
+               .unit = "px",
+               .min = 0,
+               .max = 100,
+               .origin = Origin::kGuessed,
+               .source = "half a pixel of error at silhouettes; clothes are several pixels wide"});
+  }
   f.Section("facing", facing, {.meaning = "search for a body that is tracked back to front"});
   f.Section("uncertainty", uncertainty,
             {.meaning = "covariances of the joints, from the normal equations"});

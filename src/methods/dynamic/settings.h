@@ -9,6 +9,7 @@
 #include "tracking/facing.h"
 #include "tracking/frame_checks.h"
 #include "tracking/joint_uncertainty.h"
+#include "tracking/limb_search.h"
 #include "tracking/start_search.h"
 
 namespace vitruvia::dynamic {
@@ -70,6 +71,8 @@ struct Settings {
   PlacementSettings placement;      // of start kRestPose
   PoseSearchSettings start_search;  // of start kSearch, and where areas are watched
   AreaWatchSettings watch;
+  LimbSettings limbs;
+  int area_edge_px = 1;  // where areas are watched or limbs searched
   FacingSettings facing{.margin_m = 0.0};
   UncertaintySettings uncertainty;
   double max_depth_m = 8.0;

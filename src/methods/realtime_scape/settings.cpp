@@ -60,45 +60,6 @@ void MotionSettings::Describe(Fields& f) {
        .source = "an unobserved limb comes to rest within half a second"});
 }
 
-void LimbSettings::Describe(Fields& f) {
-  constexpr const char* kSource = "paper A lists recovery as future work";
-  f.Number("min_unexplained_m2", min_unexplained_m2,
-           {.meaning = "area of the captured surface without explanation by the model above which "
-                       "limbs are searched there; 0: never",
-            .unit = "m²",
-            .min = 0,
-            .max = 10,
-            .origin = Origin::kGuessed,
-            .source = kSource});
-  if (!f.Applies(min_unexplained_m2 > 0.0)) return;
-  f.Number("margin", margin,
-           {.meaning = "a found limb is moved only if the score (explained share of the cloud "
-                       "times confirmed share of the model) rises by at least this much",
-            .min = 0,
-            .max = 1,
-            .origin = Origin::kGuessed,
-            .source = kSource});
-  f.Integer("num_targets", num_targets,
-            {.meaning = "number of unexplained points at which the end of each limb is tried",
-             .min = 1,
-             .max = 1000,
-             .origin = Origin::kGuessed,
-             .source = kSource});
-  f.Integer("num_swivels", num_swivels,
-            {.meaning = "number of angles about the line from a limb's root to its end at which "
-                        "the limb is tried",
-             .min = 1,
-             .max = 1000,
-             .origin = Origin::kGuessed,
-             .source = kSource});
-  f.Integer("num_refined", num_refined,
-            {.meaning = "number of best-scoring places of a limb that are refined by iterations",
-             .min = 1,
-             .max = 1000,
-             .origin = Origin::kGuessed,
-             .source = kSource});
-}
-
 void StoppingSettings::Describe(Fields& f) {
   f.Number(
       "rotation_step_deg", rotation_step_deg,

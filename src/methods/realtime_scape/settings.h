@@ -12,6 +12,7 @@
 #include "tracking/facing.h"
 #include "tracking/frame_checks.h"
 #include "tracking/joint_uncertainty.h"
+#include "tracking/limb_search.h"
 #include "tracking/placement.h"
 #include "tracking/relocalization_settings.h"
 #include "tracking/start_search.h"
@@ -130,13 +131,6 @@ struct MotionSettings {
   MotionModel model = MotionModel::kConstantVelocity;
   double velocity_share = 0.8;
   double hidden_decay = 0.8;
-  void Describe(Fields& fields);
-};
-
-struct LimbSettings {
-  double min_unexplained_m2 = 0.0;  // 0: limbs are not searched
-  double margin = 0.01;
-  int num_targets = 8, num_swivels = 12, num_refined = 2;
   void Describe(Fields& fields);
 };
 
