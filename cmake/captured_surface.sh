@@ -28,8 +28,8 @@ fi
 [ -e $folder/space ] || $program learn shape configs/learning/mannequin_small.json -o $folder/space
 [ -e $folder/subject ] ||
   $program rig $folder/meshes --space $folder/space --height 1.81 --sex male -o $folder/subject
-# For figures of all methods: from the frame on in which each method's search finds him. Side on with
-# raised forearms, as he begins, some would search for a second in each frame.
+# For figures of all methods: from a frame on in which each method's search finds him, since a method
+# that does not find him searches for a second in each frame.
 first=49
 if ! [ -e $folder/sequence/sequence.json ]; then
   rm -rf $folder/frames
