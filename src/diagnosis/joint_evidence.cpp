@@ -7,6 +7,7 @@
 #include "core/absent.h"
 #include "core/progress.h"
 #include "geometry/zbuffer.h"
+#include "math/segment.h"
 #include "math/statistics.h"
 
 namespace vitruvia {
@@ -23,18 +24,6 @@ constexpr std::array<double, kBoneCount> kUsualRadii = {0.14,  0.13,  0.13, 0.06
                                                         0.055, 0.04,  0.08, 0.055, 0.04};
 
 using JointPositions = std::vector<std::optional<Vector3d>>;
-
-struct Segment {
-  Vector3d from, to;
-
-  double DistanceTo(const Vector3d& point) const {
-    const Vector3d along = to - from;
-    const double length2 = along.squaredNorm();
-    const double share =
-        length2 > 0.0 ? std::clamp(along.dot(point - from) / length2, 0.0, 1.0) : 0.0;
-    return (from + share * along - point).norm();
-  }
-};
 
 using Segments = std::vector<std::optional<Segment>>;  // by bone
 
@@ -81,7 +70,7 @@ double GapOfBone(const Segments& segments, int bone,
     for (int i = 0; i < kSamplesOfBone; ++i) {
       const double share = (i + 1.0) / kSamplesOfBone;
       const Vector3d point = (1.0 - share) * segments[bone]->from + share * segments[bone]->to;
-      gap_m = std::min(gap_m, segments[other]->DistanceTo(point) - radii_m[bone] - radii_m[other]);
+      gap_m = std::min(gap_m, segments[other]->Distance(point) - radii_m[bone] - radii_m[other]);
     }
   }
   return gap_m;
@@ -135,7 +124,7 @@ int BoneAt(const Vector3d& point, const Segments& segments,
   double least_m = kNearBone_m;
   for (int bone = 0; bone < kBoneCount; ++bone) {
     if (!segments[bone]) continue;
-    const double beyond_m = segments[bone]->DistanceTo(point) - radii_m[bone];
+    const double beyond_m = segments[bone]->Distance(point) - radii_m[bone];
     if (beyond_m >= least_m) continue;
     least_m = beyond_m;
     nearest = bone;
@@ -181,7 +170,7 @@ std::array<double, kBoneCount> BoneRadii(const SequenceReader& sequence) {
   for (std::size_t v = 0; v < body.rest.vertices.size(); ++v) {
     const int bone = body.weights.bones[v][0];
     const Segment axis{body.skeleton.joints[bone], body.skeleton.tips[bone]};
-    sums[bone] += axis.DistanceTo(body.rest.vertices[v].cast<double>());
+    sums[bone] += axis.Distance(body.rest.vertices[v].cast<double>());
     counts[bone] += 1.0;
   }
   std::array<double, kBoneCount> radii_m = kUsualRadii;

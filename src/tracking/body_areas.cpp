@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "math/rigid.h"
+#include "math/segment.h"
 #include "tracking/visibility.h"
 
 namespace vitruvia {
@@ -13,14 +14,6 @@ namespace {
 // A vertex up to this far behind the rendered depth of its pixel is visible; otherwise slanted skin
 // would not be.
 constexpr float kVisibleWithin_m = 0.01f;
-
-// Square of the distance between a point and the line from `from` to `to`.
-double SquaredDistance(const Vector3d& point, const Vector3d& from, const Vector3d& to) {
-  const Vector3d along = to - from;
-  const double share =
-      std::clamp((point - from).dot(along) / std::max(along.squaredNorm(), 1e-12), 0.0, 1.0);
-  return (point - from - share * along).squaredNorm();
-}
 
 enum class Evidence { kConfirmed, kContradicted, kCovered };
 
@@ -155,10 +148,9 @@ void BodyAreaMeter::AddPoints(const BoneTransforms& camera_from_rest, const Dept
   const double pixel_sr = stride_ * stride_ / (camera_.fx * camera_.fy);
   const auto area_m2 = [&](const Vector3f& point) { return pixel_sr * point.z() * point.z(); };
   for (const Vector3f& point : cloud_.points) areas.observed_m2 += area_m2(point);
-  std::array<Vector3d, kBoneCount> from, to;
+  std::array<Segment, kBoneCount> axes;
   for (int j = 0; j < kBoneCount; ++j) {
-    from[j] = camera_from_rest[j] * skeleton_.joints[j];
-    to[j] = camera_from_rest[j] * skeleton_.tips[j];
+    axes[j] = {camera_from_rest[j] * skeleton_.joints[j], camera_from_rest[j] * skeleton_.tips[j]};
   }
   stray_pixels_.clear();
   for (const int i : unexplained_) {
@@ -166,7 +158,7 @@ void BodyAreaMeter::AddPoints(const BoneTransforms& camera_from_rest, const Dept
     int nearest = -1;
     double nearest_squared = reach_m_ * reach_m_;
     for (int j = 0; j < kBoneCount; ++j) {
-      const double squared = SquaredDistance(point, from[j], to[j]);
+      const double squared = axes[j].SquaredDistance(point);
       if (squared > nearest_squared) continue;
       nearest_squared = squared;
       nearest = j;

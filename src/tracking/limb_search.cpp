@@ -4,27 +4,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/segment.h"
+
 namespace vitruvia {
 namespace {
 
 constexpr int Index(BoneId id) { return static_cast<int>(id); }
 
-// A bone's axis in some pose, from its joint to its end.
-struct Segment {
-  Vector3d from, to;
-
-  double Distance(const Vector3d& point) const {
-    const Vector3d along = to - from;
-    const double share =
-        std::clamp((point - from).dot(along) / std::max(along.squaredNorm(), 1e-12), 0.0, 1.0);
-    return (point - from - share * along).norm();
-  }
-};
-
 Vector3d Posed(const LimbBody& body, const BodyPose& pose, int bone, const Vector3d& rest_point) {
   return pose[bone].center + pose[bone].rotation * (rest_point - body.rest_centers[bone]);
 }
 
+// A bone's axis in some pose, from its joint to its end.
 Segment AxisOf(const LimbBody& body, const BodyPose& pose, BoneId bone_id) {
   const int bone = Index(bone_id);
   return {Posed(body, pose, bone, body.skeleton.joints[bone]),

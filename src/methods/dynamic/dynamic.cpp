@@ -36,6 +36,11 @@ LimbBody LimbBodyAboutOrigin(const Subject& subject) {
   return LimbBodyOf(subject.skeleton, rest_centers, subject.rest.vertices, subject.weights);
 }
 
+// How near model and frame must be where areas are compared.
+NearnessSettings AreaNearness(const Settings& settings) {
+  return {kNear_m, settings.area_edge_px, 0.0f};
+}
+
 BoneTransforms BonesOf(const BodyPose& pose) {
   BoneTransforms bones;
   for (const BonePose& bone : pose) bones.push_back({bone.rotation, bone.center});
@@ -280,8 +285,7 @@ void Dynamic::WatchAreas(const DepthFrame& frame) {
 
 BodyAreas Dynamic::MeasureAreas(const DepthImage& depth) {
   Session& s = *session_;
-  return s.watch->meter.Measure(SubjectVertices(), BonesOf(s.pose), depth,
-                                {kNear_m, settings_.area_edge_px, 0.0f});
+  return s.watch->meter.Measure(SubjectVertices(), BonesOf(s.pose), depth, AreaNearness(settings_));
 }
 
 const std::vector<Vector3f>& Dynamic::SubjectVertices() {
@@ -414,8 +418,8 @@ Dynamic::FrameFit Dynamic::TakeFoundLimb(const DepthFrame& frame, FrameFit fit) 
 double Dynamic::LimbOverlap(const DepthImage& depth) {
   Session& s = *session_;
   s.fine.PoseVertices(s.pose, s.team, s.clock);
-  const BodyAreas areas = s.limbs->meter.Measure(SubjectVertices(), BonesOf(s.pose), depth,
-                                                 {kNear_m, settings_.area_edge_px, 0.0f});
+  const BodyAreas areas =
+      s.limbs->meter.Measure(SubjectVertices(), BonesOf(s.pose), depth, AreaNearness(settings_));
   s.clock.Lap(TimedStep::kSolve);
   return areas.overlap();
 }
