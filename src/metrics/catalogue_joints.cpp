@@ -111,6 +111,28 @@ std::vector<Metric> JointErrorMetrics() {
        .formula = "mean_{f,j} [‖(ĵ_fj − j_fj) − mean_g (ĵ_gj − j_gj)‖ ≤ 0.10 m]",
        .averaged_over = kOverJoints,
        .hidden_and_lost = kJointsCount},
+      {.key = "limb_losses",
+       .label = "losses of a limb that is seen",
+       .better = Better::kLower,
+       .definition =
+           "Number of stretches of frames in which a limb is lost: its elbow or wrist (knee or "
+           "ankle) is more than 10 cm off. Stretches in which the camera never sees it are left "
+           "out, and so are those that the end of the run cuts short before the limb was seen in "
+           "more than 10 frames. Seen: a fifth of the vertices of forearm and hand (shin and foot) "
+           "is visible.",
+       .formula = "Σ_limbs number of such stretches",
+       .hidden_and_lost = "A limb out of sight does not count; frames that the tracker calls lost "
+                          "count like all others."},
+      {.key = "limbs_found_within_10_frames",
+       .label = "lost limbs found within 10 frames",
+       .unit = "%",
+       .scale = 1e2,
+       .decimals = 1,
+       .better = Better::kHigher,
+       .definition = "Share of limb_losses that hold at most 10 frames in which the camera sees "
+                     "the limb. Absent if no limb was lost.",
+       .formula = "losses with at most 10 seen frames / limb_losses",
+       .hidden_and_lost = "As for limb_losses."},
       {.key = "joint_auc_30cm",
        .label = "joint accuracy, area under the curve to 30 cm",
        .decimals = 4,

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "math/statistics.h"
 #include "scoring/joint_score.h"
+#include "scoring/limb_score.h"
 #include "scoring/observation_score.h"
 #include "scoring/own_surface_score.h"
 #include "scoring/run_health.h"
@@ -136,6 +137,7 @@ void ScoreRun(const SequenceReader& sequence, const EstimateReader& estimate,
   ScoreSurfaces(sequence, estimate, settings.reconstruction_every, record);
   ScoreOwnSurfaces(sequence, estimate, record);
   ScoreJoints(sequence, estimate, record);
+  ScoreLimbs(sequence, estimate, record);
   ScoreUncertainty(sequence, estimate, record);
   ScoreBound(sequence, estimate, settings.bound, record);
   if (HoldsAgainstObservation(settings, sequence.info()))

@@ -175,5 +175,50 @@ TEST(OwnSurfaceScore, IsTheDistanceInBothDirections) {
               testing::Not(testing::HasSubstr("surface")));
 }
 
+// The body stands before a camera for 14 frames. The estimate's left wrist is 20 cm off in frames 1
+// to 12 and the right ankle in frames 1 to 10; the image ends above the ankles' height in the
+// second sequence, in which the legs are not seen.
+TEST(LimbScore, CountsTheFramesInWhichTheCameraSeesALostLimb) {
+  const auto row_of = [](double camera_cy) {
+    const TemporaryFolder folder;
+    const BodyModel body = TinyBody(2);
+    SequenceInfo info;
+    info.camera = {128, 96, 60.0, 60.0, 63.5, camera_cy};
+    info.frames = 14;
+    JointTruth joints;
+    for (const auto& bone : Bones()) info.joints.emplace_back(bone.joint);
+    std::vector<Vector3f> vertices = body.rest.vertices;
+    for (Vector3f& v : vertices) v = {v.x(), 1.0f - v.y(), 3.0f - v.z()};
+    for (const Vector3d& joint : body.skeleton.joints)
+      joints.positions.emplace_back(joint.x(), 1.0 - joint.y(), 3.0 - joint.z());
+    joints.visible.assign(kBoneCount, true);
+    SequenceWriter writer(folder / "sequence", info, body, body.rest);
+    EstimateWriter estimate(folder / "estimate", body.rest);
+    for (int frame = 0; frame < info.frames; ++frame) {
+      writer.Append(DepthImage(128, 96, 3.0f), vertices, joints);
+      TrackResult result;
+      result.outcome = Outcome::kConverged;
+      result.vertices = vertices;
+      result.joints = joints.positions;
+      if (frame >= 1 && frame <= 12) result.joints[FindJoint("left_wrist")].x() += 0.2;
+      if (frame >= 1 && frame <= 10) result.joints[FindJoint("right_ankle")].x() += 0.2;
+      estimate.Append(result, 1.0);
+    }
+    writer.Finish();
+    estimate.Finish();
+    RunRecord record;
+    record.summary = nlohmann::json::object();
+    ScoreRun(SequenceReader(folder / "sequence"), EstimateReader(folder / "estimate"),
+             ScoreSettings(), record);
+    return record.summary;
+  };
+  const nlohmann::json all_seen = row_of(47.5);
+  EXPECT_EQ(all_seen.at("limb_losses"), 2);
+  EXPECT_EQ(all_seen.at("limbs_found_within_10_frames"), 0.5) << "10 frames of the ankle's, not 12";
+  const nlohmann::json legs_out_of_view = row_of(87.5);
+  EXPECT_EQ(legs_out_of_view.at("limb_losses"), 1);
+  EXPECT_EQ(legs_out_of_view.at("limbs_found_within_10_frames"), 0.0);
+}
+
 }  // namespace
 }  // namespace vitruvia
