@@ -261,6 +261,29 @@ TEST_F(Terms, AVertexLeavesFreeSpaceAlongItsLineOfSightOrToTheNearestMeasurement
   }
 }
 
+TEST_F(Terms, AVertexNearTheBorderLeavesTheImage) {
+  const auto right = static_cast<float>(camera.width - 1),
+             low = static_cast<float>(camera.height - 4);
+  const std::vector<Vector3f> vertices{
+      camera.Unproject(1.0f, 10.0f, 2.0f), camera.Unproject(right, 30.0f, 2.0f),
+      camera.Unproject(50.0f, low, 2.0f), camera.Unproject(60.0f, low, 2.0f)};
+  DepthImage captured(camera.width, camera.height);
+  captured(1, 10) = captured(camera.width - 1, 30) = 2.9f;
+  captured(50, camera.height - 9) = 2.5f;  // 5 pixels from the third vertex, the border 4
+  captured(60, camera.height - 7) = 2.5f;  // 3 pixels from the last one
+  VertexClasses classes;
+  classes.elsewhere = {0, 1, 2, 3};
+  FreeSpace free_space;
+  FindFreeSpace(vertices, classes, captured, camera, FitSettings{}, free_space);
+  const auto below = static_cast<float>(camera.height);
+  const std::array expected{
+      camera.Unproject(-1.0f, 10.0f, 2.0f), camera.Unproject(right + 1.0f, 30.0f, 2.0f),
+      camera.Unproject(50.0f, below, 2.0f), camera.Unproject(60.0f, below - 7.0f, 2.0f)};
+  ASSERT_EQ(free_space.ways_out.size(), expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k)
+    EXPECT_LT((free_space.ways_out[k].target - expected[k]).norm(), 1e-6f) << k;
+}
+
 TEST_F(Terms, APlanePairAsksNothingAlongThePlane) {
   FitData data;
   const PosedSurface surface = Surface(rest);

@@ -34,6 +34,51 @@ std::optional<Pixel> NearestMeasured(const DepthImage& captured, Pixel from, int
   return nearest;
 }
 
+// The place beside the image that is nearest to a pixel of it.
+Pixel NearestOutside(const DepthImage& image, Pixel from) {
+  const int right = image.width() - from.u, below = image.height() - from.v;
+  const int least = std::min({from.u + 1, right, from.v + 1, below});
+  if (least == from.u + 1) return {-1, from.v};
+  if (least == right) return {image.width(), from.v};
+  return least == from.v + 1 ? Pixel{from.u, -1} : Pixel{from.u, image.height()};
+}
+
+int Columns(Pixel from, Pixel to) {  // or rows, whichever are more
+  return std::max(std::abs(to.u - from.u), std::abs(to.v - from.v));
+}
+
+int SquaredDistance(Pixel from, Pixel to) {
+  const int du = to.u - from.u, dv = to.v - from.v;
+  return du * du + dv * dv;
+}
+
+Vector3f PlaceAt(const PinholeCamera& camera, Pixel pixel, float z) {
+  return camera.Unproject(static_cast<float>(pixel.u), static_cast<float>(pixel.v), z);
+}
+
+// Out of the space before the captured surface: along the line of sight, or out of the image.
+Vector3f WayOutBefore(const Vector3f& vertex, Pixel at, const DepthImage& captured,
+                      const PinholeCamera& camera) {
+  const Vector3f behind = vertex * (captured(at.u, at.v) / vertex.z());
+  const Vector3f beside = PlaceAt(camera, NearestOutside(captured, at), vertex.z());
+  return (beside - vertex).squaredNorm() < (behind - vertex).squaredNorm() ? beside : behind;
+}
+
+// Out of the space beside the captured surface: to the nearest measured pixel, or out of the image.
+std::optional<Vector3f> WayOutBeside(const Vector3f& vertex, Pixel at, const DepthImage& captured,
+                                     const PinholeCamera& camera,
+                                     const FreeSpaceSettings& settings) {
+  const int reach_px = static_cast<int>(settings.reach_m * camera.fx / double{vertex.z()});
+  Pixel way_out = NearestOutside(captured, at);
+  if (const auto edge = NearestMeasured(captured, at, reach_px);
+      edge && SquaredDistance(at, *edge) <= SquaredDistance(at, way_out)) {
+    way_out = *edge;
+  }
+  const int distance_px = Columns(at, way_out);
+  if (distance_px <= settings.margin_px || distance_px > reach_px) return {};
+  return PlaceAt(camera, way_out, vertex.z());
+}
+
 }  // namespace
 
 void FindFreeSpace(const std::vector<Vector3f>& vertices, const VertexClasses& classes,
@@ -46,20 +91,12 @@ void FindFreeSpace(const std::vector<Vector3f>& vertices, const VertexClasses& c
     if (!at) continue;
     const float measured = captured(at->u, at->v);
     if (measured > 0.0f) {
-      if (vertex.z() < measured) {
-        free_space.ways_out.push_back({i, vertex * (measured / vertex.z())});
-      }
-      continue;
+      if (vertex.z() < measured)
+        free_space.ways_out.push_back({i, WayOutBefore(vertex, *at, captured, camera)});
+    } else if (const auto way_out =
+                   WayOutBeside(vertex, *at, captured, camera, settings.free_space)) {
+      free_space.ways_out.push_back({i, *way_out});
     }
-    const float z = vertex.z();
-    const int reach_px = static_cast<int>(settings.free_space.reach_m * camera.fx / double{z});
-    const auto edge = NearestMeasured(captured, *at, reach_px);
-    if (!edge || std::max(std::abs(edge->u - at->u), std::abs(edge->v - at->v)) <=
-                     settings.free_space.margin_px) {
-      continue;
-    }
-    free_space.ways_out.push_back(
-        {i, camera.Unproject(static_cast<float>(edge->u), static_cast<float>(edge->v), z)});
   }
 }
 

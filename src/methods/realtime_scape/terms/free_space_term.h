@@ -19,7 +19,8 @@ struct FreeSpace {
 
 // Of the vertices that no captured pixel explains (V2): one in front of the captured surface leaves
 // along its line of sight; one where nothing is measured leaves across it, to the nearest measured
-// pixel.
+// pixel. Where the border of the image is nearer, either leaves the image: what is beside it may be
+// anywhere.
 void FindFreeSpace(const std::vector<Vector3f>& vertices, const VertexClasses& classes,
                    const DepthImage& captured, const PinholeCamera& camera,
                    const FitSettings& settings, FreeSpace& free_space);
