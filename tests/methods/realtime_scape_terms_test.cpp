@@ -245,14 +245,14 @@ TEST_F(Terms, AVertexLeavesFreeSpaceAlongItsLineOfSightOrToTheNearestMeasurement
       camera.Unproject(10.0f, 10.0f, 2.0f), camera.Unproject(20.0f, 10.0f, 2.0f),
       camera.Unproject(26.0f, 10.0f, 2.0f), camera.Unproject(31.0f, 10.0f, 2.0f)};
   DepthImage captured(camera.width, camera.height);
-  captured(10, 10) = 3.0f;                     // behind the first vertex
+  captured(10, 10) = 2.05f;                    // behind the first vertex
   captured(30, 10) = captured(20, 18) = 2.5f;  // 8 pixels below the second, 4 and 1 from the others
   VertexClasses classes;
   classes.elsewhere = {0, 1, 2, 3};
   FreeSpace free_space;
   FindFreeSpace(vertices, classes, captured, camera, FitSettings{}, free_space);
   ASSERT_EQ(free_space.ways_out.size(), 3u);  // the last is within the margin of an edge
-  const std::array expected{camera.Unproject(10.0f, 10.0f, 3.0f),
+  const std::array expected{camera.Unproject(10.0f, 10.0f, 2.05f),
                             camera.Unproject(20.0f, 18.0f, 2.0f),
                             camera.Unproject(30.0f, 10.0f, 2.0f)};
   for (int k = 0; k < 3; ++k) {
