@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "learning/scan/gathered.h"
 #include "math/lanes.h"
 #include "math/rigid.h"
 
@@ -115,14 +116,6 @@ void TsdfVolume::MakeRoom(const PointMap& seen, const Rigidd& subject_from_camer
 
 namespace {
 
-// base[index] in each lane.
-template <class Numbers, class Scalar>
-Numbers Gathered(const Scalar* base, const IntLanes& index) {
-  Numbers numbers;
-  for (int lane = 0; lane < kLanes; ++lane) numbers[lane] = base[index[lane]];
-  return numbers;
-}
-
 // The eight voxels of a row, on their way into the image.
 struct VoxelRows {
   struct Row {
@@ -182,7 +175,6 @@ struct TsdfVolume::View {
     float weight = 0.0f;
     float behind = 0.0f;  // in truncations: how far behind the surface the pixel speaks
   };
-  static constexpr int kTile = 8;  // pixels
 
   const DepthImage& depth;
   PinholeCamera camera;
