@@ -3,7 +3,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "learning/scan/gathered.h"
@@ -114,7 +113,7 @@ IntLanes TsdfVolume::IndicesOf(const IntLanes& x, const IntLanes& y, const IntLa
   const IntLanes inside = wanted & (bx >= 0) & (by >= 0) & (bz >= 0) & (bx < blocks_[0]) &
                           (by < blocks_[1]) & (bz < blocks_[2]);
   const IntLanes place = (bz * blocks_[1] + by) * blocks_[0] + bx;
-  const IntLanes block = Gathered<IntLanes>(block_numbers_.data(), inside ? place : IntLanes{});
+  const IntLanes block = Gathered(block_numbers_.data(), inside ? place : IntLanes{});
   constexpr int kMask = kBlockSide - 1;
   const IntLanes index = block * kBlockVoxels +
                          ((((z & kMask) << kBlockBits) + (y & kMask)) << kBlockBits) + (x & kMask);
@@ -122,21 +121,10 @@ IntLanes TsdfVolume::IndicesOf(const IntLanes& x, const IntLanes& y, const IntLa
 }
 
 TsdfVolume::VoxelLanes TsdfVolume::CellsAt(const IntLanes& index) const {
-  static_assert(sizeof(Cell) == sizeof(double));
-  const IntLanes known = index < 0 ? IntLanes{} : index;
-  // A cell's two numbers are read as one.
-  const auto cell = [&](int lane) {
-    double both;
-    std::memcpy(&both, &cells_[static_cast<std::size_t>(known[lane])], sizeof both);
-    return both;
-  };
-  const DoubleLanes cells = {cell(0), cell(1), cell(2), cell(3),
-                             cell(4), cell(5), cell(6), cell(7)};
-  FloatLanes a, b;
-  std::memcpy(&a, &cells, sizeof a);
-  std::memcpy(&b, reinterpret_cast<const char*>(&cells) + sizeof a, sizeof b);
-  return {__builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14),
-          index < 0 ? FloatLanes{} : __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15)};
+  static_assert(sizeof(Cell) == 2 * sizeof(float));
+  const auto* cells = reinterpret_cast<const float*>(cells_.data());
+  const auto [distance, weight] = GatheredPairs(cells, index < 0 ? IntLanes{} : index);
+  return {distance, index < 0 ? FloatLanes{} : weight};
 }
 
 // As for one position, for those lanes that are wanted. Returns those that have a distance.
