@@ -87,7 +87,7 @@ BodyModel ObtainFittedSubject(SubjectRecipe recipe, const SceneSettings& scene,
     // Each is serial in large parts, and neither needs the other.
     WorkerTeam(2).For(2, 1, [&](int work, int) {
       if (work == 0) model = ObtainLearnedModel(recipe.learning, cache);
-      if (work == 1) scan = Scan(recipe.scan);
+      if (work == 1) scan = ScanWithoutDistances(recipe.scan);
     });
     Require(scan.truth.has_value(), "ObtainFittedSubject: a scan without a person");
     const FittedSubject subject =
