@@ -14,6 +14,7 @@
 #include "search/kd_tree.h"
 #include "synth/bodies/mannequin_score.h"
 #include "synth/bodies/mannequin_tables.h"
+#include "synth/bodies/refiner.h"
 
 namespace vitruvia {
 namespace {
@@ -361,6 +362,20 @@ TEST(Refine, DiffusionMovesWeightsOnlyAndSpreadsThem) {
                          [](const auto& w) { return w[0] == 1.0f; });
   };
   EXPECT_LT(rigid(soft), rigid(sharp));
+}
+
+TEST(Refine, RefinerGivesEachBodyWhatRefiningItAloneGives) {
+  const Someone &first = Crowd().front(), &last = Crowd().back();
+  const Refiner refiner(first.control.cage, kTemplate);
+  EXPECT_EQ(refiner.Vertices(last.control), last.body.rest.vertices);
+  EXPECT_EQ(refiner.Refined(last.control).rest.vertices, last.body.rest.vertices);
+  EXPECT_EQ(refiner.Refined(last.control).weights.weights, last.body.weights.weights);
+  const RefinementSettings decimated{.subdivisions = 1, .target_vertices = 500};
+  EXPECT_EQ(Refiner(first.control.cage, decimated).Vertices(last.control),
+            Refine(last.control, decimated).rest.vertices);
+  ControlBody other = first.control;
+  std::swap(other.cage.quads.front(), other.cage.quads.back());
+  EXPECT_THROW(refiner.Vertices(other), std::invalid_argument);
 }
 
 TEST(Refine, RefusesWeightsThatDoNotFitTheCage) {
