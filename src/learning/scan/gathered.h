@@ -24,8 +24,8 @@ inline IntLanes Gathered(const std::int32_t* base, const IntLanes& index) {
   return reinterpret_cast<IntLanes>(_mm256_mask_i32gather_epi32(
       __m256i{}, base, reinterpret_cast<__m256i>(index), all, sizeof(std::int32_t)));
 #else
-  return {base[index[0]], base[index[1]], base[index[2]], base[index[3]],
-          base[index[4]], base[index[5]], base[index[6]], base[index[7]]};
+  return IntLanes{base[index[0]], base[index[1]], base[index[2]], base[index[3]],
+                  base[index[4]], base[index[5]], base[index[6]], base[index[7]]};
 #endif
 }
 
