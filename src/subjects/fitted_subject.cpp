@@ -5,6 +5,7 @@
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/worker_team.h"
 #include "geometry/mesh_io.h"
 
 namespace vitruvia {
@@ -81,8 +82,13 @@ BodyModel ObtainFittedSubject(SubjectRecipe recipe, const SceneSettings& scene,
   const Json resolved = ResolvedRecipe(recipe);
   const CachedFolder kept(cache, "subject", resolved);
   kept.GetOrBuild([&](const fs::path& folder) {
-    const LearnedModel model = ObtainLearnedModel(recipe.learning, cache);
-    const ScanResult scan = Scan(recipe.scan);
+    LearnedModel model;
+    ScanResult scan;
+    // Each is serial in large parts, and neither needs the other.
+    WorkerTeam(2).For(2, 1, [&](int work, int) {
+      if (work == 0) model = ObtainLearnedModel(recipe.learning, cache);
+      if (work == 1) scan = ScanWithoutDistances(recipe.scan);
+    });
     Require(scan.truth.has_value(), "ObtainFittedSubject: a scan without a person");
     const FittedSubject subject =
         FitSubject(model, scan.surface.mesh, scan.truth->body.attributes, recipe.fit);

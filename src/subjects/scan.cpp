@@ -4,6 +4,7 @@
 
 #include "core/build_info.h"
 #include "core/error.h"
+#include "core/one_ahead.h"
 #include "core/progress.h"
 #include "core/timer.h"
 #include "geometry/surface_map.h"
@@ -17,28 +18,35 @@
 namespace vitruvia {
 namespace {
 
+void RequireFused(const FusedFrame& fused, int frame) {
+  if (fused.outcome == FrameOutcome::kEmpty && frame == 0) {
+    throw DataError(fmt::format("scan: no body: frame {}: {}", frame, fused.message));
+  }
+  if (fused.outcome != FrameOutcome::kFused) {
+    throw RunError(fmt::format("scan: the camera is lost in frame {}: {}", frame, fused.message));
+  }
+}
+
 // Fuses every stride-th of `count` frames that `depth_of` gives.
 ScanSurface Fuse(const ScanSettings& settings, ScanFusion& fusion, int count,
                  const std::function<DepthImage(int)>& depth_of, ScanResult& result) {
   {
-    const int stride = settings.fusion.stride;
-    Progress progress("scan", (count + stride - 1) / stride);
-    for (int frame = 0; frame < count; frame += stride) {
-      Stopwatch watch;
-      const DepthImage depth = depth_of(frame);
-      result.render_ms += watch.LapMs();
+    const int stride = settings.fusion.stride, steps = (count + stride - 1) / stride;
+    Progress progress("scan", steps);
+    const auto depth_of_step = [&](int step) {
+      const Stopwatch watch;
+      DepthImage depth = depth_of(step * stride);
+      result.render_ms += watch.ElapsedMs();
+      return depth;
+    };
+    MakeOneAhead(steps, depth_of_step, [&](int step, const DepthImage& depth) {
+      const Stopwatch watch;
       const FusedFrame fused = fusion.FuseFrame(depth);
-      result.fuse_ms += watch.LapMs();
-      if (fused.outcome == FrameOutcome::kEmpty && frame == 0) {
-        throw DataError(fmt::format("scan: no body: frame {}: {}", frame, fused.message));
-      }
-      if (fused.outcome != FrameOutcome::kFused) {
-        throw RunError(
-            fmt::format("scan: the camera is lost in frame {}: {}", frame, fused.message));
-      }
+      result.fuse_ms += watch.ElapsedMs();
+      RequireFused(fused, step * stride);
       result.frames.push_back(fused);
       progress.Advance();
-    }
+    });
   }
   Stopwatch watch;
   ScanSurface surface = fusion.Surface();
@@ -73,9 +81,14 @@ ScanResult ScanScene(const ScanSettings& settings, ScanRecorder recorder) {
       },
       result);
   RequireOneWholeBody(result.surface, settings.check);
-  result.truth = {recorder.body(), recorder.surface(), PathError(result.frames, true_path),
-                  SurfaceDistance(result.surface.mesh, recorder.surface()),
-                  SurfaceDistance(recorder.surface(), result.surface.mesh)};
+  result.truth = {recorder.body(), recorder.surface(), PathError(result.frames, true_path), {}, {}};
+  return result;
+}
+
+ScanResult WithDistances(ScanResult result) {
+  if (!result.truth) return result;
+  result.truth->scan_to_truth = SurfaceDistance(result.surface.mesh, result.truth->surface);
+  result.truth->truth_to_scan = SurfaceDistance(result.truth->surface, result.surface.mesh);
   return result;
 }
 
@@ -203,13 +216,17 @@ DistanceSummary SurfaceDistance(const TriangleMesh& from, const TriangleMesh& to
   return {Mean(distances_m), Quantile(distances_m, 0.95), Maximum(distances_m)};
 }
 
-ScanResult Scan(const ScanSettings& settings) {
+ScanResult ScanWithoutDistances(const ScanSettings& settings) {
   return settings.source == ScanSource::kScene ? ScanScene(settings, ScanRecorder(settings.scene))
                                                : ScanSequence(settings);
 }
 
+ScanResult Scan(const ScanSettings& settings) {
+  return WithDistances(ScanWithoutDistances(settings));
+}
+
 ScanResult ScanPerson(const ScanSettings& settings, const BodyModel& person) {
-  return ScanScene(settings, ScanRecorder(settings.scene, person));
+  return WithDistances(ScanScene(settings, ScanRecorder(settings.scene, person)));
 }
 
 Json ScanRecord(const ScanSettings& settings, const ScanResult& result) {

@@ -69,6 +69,8 @@ struct ScanResult {
 // The subject frame follows from the first camera's pose relative to the floor, which is that of
 // the scene, or first_view. Later alignments are relative to it.
 ScanResult Scan(const ScanSettings& settings);
+// The same, but for the distances between scan and truth, which take as long as 10 frames.
+ScanResult ScanWithoutDistances(const ScanSettings& settings);
 // Scans that person in the scene instead of the scene's own.
 ScanResult ScanPerson(const ScanSettings& settings, const BodyModel& person);
 

@@ -8,6 +8,7 @@
 #include "body/subdivision.h"
 #include "core/error.h"
 #include "synth/bodies/mannequin_cage.h"
+#include "synth/bodies/mannequin_score.h"
 #include "synth/bodies/mannequin_shape.h"
 #include "synth/bodies/mannequin_tables.h"
 #include "synth/bodies/mannequin_weights.h"
@@ -116,17 +117,9 @@ Figure MakeFigure(Sex sex, double height_m, double girth_score) {
   return figure;
 }
 
-// Bisection: volume increases with the score, and after 24 steps the error is below float
-// precision.
 Figure FigureOfVolume(Sex sex, double height_m, double volume_m3) {
-  double low = -7.0, high = 9.0;  // wider than the admitted weights need
-  Figure figure;
-  for (int step = 0; step < 24; ++step) {
-    const double score = 0.5 * (low + high);
-    figure = MakeFigure(sex, height_m, score);
-    (figure.volume_m3 < volume_m3 ? low : high) = score;
-  }
-  return figure;
+  const auto volume_at = [&](double score) { return MakeFigure(sex, height_m, score).volume_m3; };
+  return MakeFigure(sex, height_m, mannequin::ScoreOfVolume(volume_at, volume_m3));
 }
 
 }  // namespace

@@ -2,10 +2,9 @@
 #include <algorithm>
 #include <functional>
 
-#include "body/subdivision.h"
 #include "core/error.h"
 #include "geometry/decimation.h"
-#include "synth/bodies/body_source.h"
+#include "synth/bodies/refiner.h"
 
 namespace vitruvia {
 namespace {
@@ -58,7 +57,7 @@ Eigen::MatrixXf WithReference(const ControlBody& body) {
   return positions;
 }
 
-std::vector<Vector3f> Vertices(const Eigen::MatrixXf& positions, Eigen::Index first_column) {
+std::vector<Vector3f> VerticesIn(const Eigen::MatrixXf& positions, Eigen::Index first_column) {
   std::vector<Vector3f> vertices(positions.rows());
   for (Eigen::Index v = 0; v < positions.rows(); ++v) {
     vertices[v] = positions.block<1, 3>(v, first_column).transpose();
@@ -133,35 +132,62 @@ std::string RefinementSettings::Problem() const {
                      kFewestTargetVertices, target_vertices);
 }
 
-BodyModel Refine(const ControlBody& body, const RefinementSettings& settings) {
+Refiner::Refiner(const QuadMesh& cage, const RefinementSettings& settings)
+    : settings_(settings), quads_(cage.quads) {
+  auto vertex_count = static_cast<int>(cage.vertices.size());
+  for (int step = 0; step < settings.subdivisions; ++step) {
+    steps_.push_back(CatmullClark(FinestQuads(), vertex_count));
+    vertex_count = static_cast<int>(steps_.back().new_from_old.rows());
+  }
+}
+
+void Refiner::RequireFits(const ControlBody& body) const {
   const auto vertex_count = static_cast<Eigen::Index>(body.cage.vertices.size());
   Require(body.weights.rows() == vertex_count && body.weights.cols() == kBoneCount,
           "Refine: weights are {} × {}, expected {} × {}", body.weights.rows(), body.weights.cols(),
           vertex_count, kBoneCount);
-  Eigen::MatrixXf positions = WithReference(body), weights = body.weights;
-  std::vector<Quad> quads = body.cage.quads;
-  for (int step = 0; step < settings.subdivisions; ++step) {
-    SubdivisionStep finer = CatmullClark(quads, static_cast<int>(positions.rows()));
-    positions = (finer.new_from_old * positions).eval();
-    weights = (finer.new_from_old * weights).eval();
-    quads = std::move(finer.quads);
-  }
+  Require(body.cage.quads == quads_, "Refine: the body {} has other quads than the cage",
+          body.name);
+}
 
+const std::vector<Quad>& Refiner::FinestQuads() const {
+  return steps_.empty() ? quads_ : steps_.back().quads;
+}
+
+Eigen::MatrixXf Refiner::Subdivided(Eigen::MatrixXf values) const {
+  for (const SubdivisionStep& step : steps_) values = (step.new_from_old * values).eval();
+  return values;
+}
+
+BodyModel Refiner::Refined(const ControlBody& body) const {
+  RequireFits(body);
+  const Eigen::MatrixXf positions = Subdivided(WithReference(body));
   BodyModel model;
   model.name = body.name;
   model.skeleton = body.skeleton;
   model.attributes = body.attributes;
-  model.rest.triangles = SplitQuads(quads);
-  model.rest.vertices = Vertices(positions, 0);
-  for (int step = 0; step < settings.weight_diffusion; ++step) {
+  model.rest.triangles = SplitQuads(FinestQuads());
+  model.rest.vertices = VerticesIn(positions, 0);
+  Eigen::MatrixXf weights = Subdivided(body.weights);
+  for (int step = 0; step < settings_.weight_diffusion; ++step) {
     weights = Diffused(weights, model.rest.triangles);
   }
   DropTiesForLastPlace(weights);
   model.weights = Sparsified(weights);
-  if (settings.target_vertices > 0) {
-    DecimateBody(Vertices(positions, 3), settings.target_vertices, model);
+  if (settings_.target_vertices > 0) {
+    DecimateBody(VerticesIn(positions, 3), settings_.target_vertices, model);
   }
   return model;
+}
+
+std::vector<Vector3f> Refiner::Vertices(const ControlBody& body) const {
+  if (settings_.target_vertices > 0) return Refined(body).rest.vertices;
+  RequireFits(body);
+  return VerticesIn(Subdivided(WithReference(body)), 0);
+}
+
+BodyModel Refine(const ControlBody& body, const RefinementSettings& settings) {
+  return Refiner(body.cage, settings).Refined(body);
 }
 
 RefinementSettings DefaultTemplateRefinement(BodySource source) {

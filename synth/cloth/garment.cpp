@@ -15,7 +15,6 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kVolumeWavelength_m = 0.45;    // a belly's or a shoulder's size
 constexpr double kWrinkleWavelength_m = 0.09;   // of a shirt's loose folds
 constexpr double kWrinkleRate_rad_per_s = 2.0;  // a wrinkle comes and goes in some three seconds
-constexpr int kWaves = 6;                       // in each field of waves
 constexpr double kFoldReach_m = 0.11;           // folds fade out that far from the joint
 constexpr double kFullBend_rad = std::numbers::pi / 2.0;  // a right angle folds cloth fully
 constexpr double kStretchedShare = 0.15;  // of the folds, left on the side that is pulled taut
@@ -86,7 +85,7 @@ Garment::Garment(const BodyModel& body, const ClothSettings& settings, std::uint
   const auto waves = [&](const char* name, double wavelength_m, double rate) {
     RandomStream random(seed, name);
     std::vector<Wave> result;
-    for (int k = 0; k < kWaves; ++k) {
+    for (std::size_t k = 0; k < kWaves; ++k) {
       const double length = wavelength_m * random.Uniform(0.7, 1.4);
       result.push_back({kTwoPi / length * RandomDirection(random), random.Uniform(0.0, kTwoPi),
                         rate * random.Uniform(0.5, 1.5)});
@@ -120,13 +119,23 @@ Garment::Garment(const BodyModel& body, const ClothSettings& settings, std::uint
       const double nearness = share * covered_[v] *
                               std::exp(-0.5 * offset.squaredNorm() / (kFoldReach_m * kFoldReach_m));
       if (nearness < 1e-3 || off_axis.norm() < 1e-6) continue;
-      fold_sites_.push_back({v, joint, along, off_axis.normalized(), nearness});
+      const Vector3d outwards = off_axis.normalized();
+      const double around = std::atan2(outwards.y() + outwards.x(), outwards.z());
+      fold_sites_.push_back({v, joint, along, outwards, around, nearness});
+    }
+  }
+  for (const Vector3f& vertex : body.rest.vertices) {
+    const Vector3d p = vertex.cast<double>();
+    volumes_m_.push_back(Volume(p));
+    std::array<double, kWaves>& shape = wrinkle_shapes_.emplace_back();
+    for (std::size_t k = 0; k < kWaves; ++k) {
+      const Wave& wave = wrinkle_waves_[k];
+      shape[k] = std::cos(wave.direction.dot(p) + wave.phase);
     }
   }
 }
 
-double Garment::Volume(int vertex) const {
-  const Vector3d p = body_.rest.vertices[vertex].cast<double>();
+double Garment::Volume(const Vector3d& p) const {
   double sum = 0.0;
   for (const Wave& wave : volume_waves_) sum += std::cos(wave.direction.dot(p) + wave.phase);
   return settings_.volume_m * sum / std::sqrt(0.5 * kWaves);
@@ -134,25 +143,32 @@ double Garment::Volume(int vertex) const {
 
 // A limb of direction a that a joint turns to R a presses the cloth together on the side that R a
 // leans to, and stretches it on the other.
+Garment::Bend Garment::BendOf(int joint, const JointPose& pose) const {
+  const Matrix3<double>& local = pose.local_rotations[joint];
+  const Vector3d axis = (body_.skeleton.tips[joint] - body_.skeleton.joints[joint]).normalized();
+  const Vector3d lean = local * axis - axis;
+  Bend bend;
+  bend.amount = std::min(1.0, Angle(local) / kFullBend_rad);
+  bend.leans = !(lean.norm() < 1e-9);
+  bend.lean = lean.normalized();
+  bend.twist = LogSo3<double>(local).dot(axis);
+  return bend;
+}
+
 void Garment::AddFolds(const JointPose& pose, std::vector<double>& offsets) const {
   const double wave_number = kTwoPi / settings_.fold_wavelength_m;
+  std::array<Bend, kBoneCount> bends;
+  for (int joint = 1; joint < kBoneCount; ++joint) bends[joint] = BendOf(joint, pose);
   for (const FoldSite& site : fold_sites_) {
-    const Matrix3<double>& local = pose.local_rotations[site.joint];
-    const double bend = std::min(1.0, Angle(local) / kFullBend_rad);
-    if (bend < 1e-3) continue;
-    const Vector3d axis =
-        (body_.skeleton.tips[site.joint] - body_.skeleton.joints[site.joint]).normalized();
-    const Vector3d lean = local * axis - axis;
-    const double inner =
-        lean.norm() < 1e-9 ? 0.5 : 0.5 + 0.5 * lean.normalized().dot(site.outwards);
+    const Bend& bend = bends[site.joint];
+    if (bend.amount < 1e-3) continue;
+    const double inner = bend.leans ? 0.5 + 0.5 * bend.lean.dot(site.outwards) : 0.5;
     const double pressed = kStretchedShare + (1.0 - kStretchedShare) * inner;
     // The folds of a twisted limb are oblique: the phase depends on the angle round the limb.
-    const double around = std::atan2(site.outwards.y() + site.outwards.x(), site.outwards.z());
-    const double twist = LogSo3<double>(local).dot(axis);
-    const double phase =
-        wave_number * site.along_m + 2.0 * twist * around + fold_phases_[site.joint] + 4.0 * bend;
+    const double phase = wave_number * site.along_m + 2.0 * bend.twist * site.around_rad +
+                         fold_phases_[site.joint] + 4.0 * bend.amount;
     offsets[site.vertex] +=
-        settings_.fold_depth_m * bend * pressed * site.nearness * std::cos(phase);
+        settings_.fold_depth_m * bend.amount * pressed * site.nearness * std::cos(phase);
   }
 }
 
@@ -181,13 +197,12 @@ void Garment::Dress(const JointPose& pose, double time_s,
                     std::vector<Vector3f>& rest_vertices) const {
   const std::size_t count = body_.rest.vertices.size();
   std::vector<double> offsets(count);
+  std::array<double, kWaves> now;
+  for (std::size_t k = 0; k < kWaves; ++k) now[k] = std::cos(wrinkle_waves_[k].rate * time_s);
   for (std::size_t v = 0; v < count; ++v) {
-    const Vector3d p = body_.rest.vertices[v].cast<double>();
     double wrinkle = 0.0;
-    for (const Wave& wave : wrinkle_waves_) {
-      wrinkle += std::cos(wave.direction.dot(p) + wave.phase) * std::cos(wave.rate * time_s);
-    }
-    offsets[v] = covered_[v] * (Volume(static_cast<int>(v)) + settings_.thickness_m +
+    for (std::size_t k = 0; k < kWaves; ++k) wrinkle += wrinkle_shapes_[v][k] * now[k];
+    offsets[v] = covered_[v] * (volumes_m_[v] + settings_.thickness_m +
                                 settings_.wrinkle_depth_m * wrinkle / std::sqrt(0.5 * kWaves));
   }
   AddFolds(pose, offsets);

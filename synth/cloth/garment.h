@@ -11,6 +11,7 @@
 // simulation of cloth: there is no inertia, no sliding on the skin and no contact.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -49,17 +50,29 @@ class Garment {
     int vertex, joint;
     double along_m;     // signed distance from the joint along the limb
     Vector3d outwards;  // unit, from the limb's axis to the vertex
+    double around_rad;  // the angle round the limb's axis
     double nearness;    // 1 at the joint … 0 far from it
   };
+  // How a pose bends a joint.
+  struct Bend {
+    double amount = 0.0;  // 1: fully
+    bool leans = false;   // the limb's axis is turned, not only about itself
+    Vector3d lean;        // unit, where it is turned to
+    double twist = 0.0;   // radians about the limb's axis
+  };
+  static constexpr std::size_t kWaves = 6;  // in each field of waves
 
-  double Volume(int vertex) const;
+  double Volume(const Vector3d& rest_vertex) const;
+  Bend BendOf(int joint, const JointPose& pose) const;
   void AddFolds(const JointPose& pose, std::vector<double>& offsets) const;
   void AddDrape(const JointPose& pose, std::vector<double>& offsets) const;
 
   const BodyModel& body_;
   ClothSettings settings_;
   std::vector<Vector3f> normals_;
-  std::vector<double> covered_;  // 0 bare … 1 clothed, per vertex
+  std::vector<double> covered_;                             // 0 bare … 1 clothed, per vertex
+  std::vector<double> volumes_m_;                           // per vertex
+  std::vector<std::array<double, kWaves>> wrinkle_shapes_;  // each wave's at rest, per vertex
   std::vector<Wave> volume_waves_, wrinkle_waves_;
   std::vector<FoldSite> fold_sites_;
   std::vector<double> fold_phases_;  // per joint

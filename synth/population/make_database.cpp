@@ -1,10 +1,13 @@
 #include "synth/population/make_database.h"
 
+#include <optional>
+
 #include "config/json_settings.h"
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/progress.h"
 #include "synth/bodies/mannequin.h"
+#include "synth/bodies/refiner.h"
 
 namespace vitruvia {
 namespace {
@@ -57,17 +60,17 @@ std::string SubjectName(int number) { return fmt::format("s{:03}", number); }
 BodyDatabase MakeDatabase(const DatabaseSettings& settings) {
   Population population(settings.population);
   BodyDatabase database;
+  std::optional<Refiner> refiner;  // all bodies of a source have one topology
   Progress progress("database", settings.population.subjects);
   for (int number = 0; number < settings.population.subjects; ++number) {
     ThrowIfInterrupted();
     const ControlBody body = population.Subject(number);
-    BodyModel model = Refine(body, settings.mesh);
+    if (!refiner) refiner.emplace(body.cage, settings.mesh);
     const std::string name = SubjectName(number);
     if (number < settings.subjects_with_poses) {
       database.examples.push_back(MakePoseExamples(settings, name, body));
     }
-    database.subjects.push_back(
-        {name, model.attributes, model.skeleton, std::move(model.rest.vertices)});
+    database.subjects.push_back({name, body.attributes, body.skeleton, refiner->Vertices(body)});
     progress.Advance();
   }
   const auto average = static_cast<int>(MostAverage(database.subjects));

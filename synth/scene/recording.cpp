@@ -5,11 +5,13 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "config/json_settings.h"
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/message.h"
+#include "core/one_ahead.h"
 #include "core/progress.h"
 #include "geometry/surface_map.h"
 #include "math/rigid.h"
@@ -163,6 +165,19 @@ void RecordEmptyRoom(const SceneSettings& settings, const DepthImage& room,
   }
 }
 
+// A frame on its way from the stage to the sequence.
+struct TakenFrame {
+  DepthImage measured;
+  std::vector<Vector3f> vertices;
+  JointTruth joints;
+  std::optional<MaskImage> mask;
+
+  void WriteTo(SequenceWriter& writer, int frame) const {
+    writer.Append(measured, vertices, joints);
+    if (mask) writer.WriteMask(frame, *mask);
+  }
+};
+
 }  // namespace
 
 void RecordSequence(const SceneSettings& settings, const BodyModel& truth, const BodyModel& subject,
@@ -176,20 +191,25 @@ void RecordSequence(const SceneSettings& settings, const BodyModel& truth, const
   TemplateMisfit misfit(subject, truth);
   {
     Progress progress("synth " + folder.filename().string(), settings.frames);
-    for (int frame = 0; frame < settings.frames; ++frame) {
+    const auto take = [&](int frame) {
       const double time_s = frame / settings.fps;
-      const TruePose posed = stage.PosedAt(time_s);
+      TruePose posed = stage.PosedAt(time_s);
       RequireInRange(posed.vertices, frame, "view.position_m");
       watch.Look(posed.vertices, frame);
       misfit.Add(posed);
       const DepthImage true_depth = stage.Rendered(time_s, posed);
-      const JointTruth joints{posed.joints, VisibleJoints(posed.joints, true_depth, camera)};
-      const DepthImage measured = sensor.Measured(frame, time_s, true_depth, stage);
-      writer.Append(measured, posed.vertices, joints);
+      TakenFrame taken;
+      taken.joints = {posed.joints, VisibleJoints(posed.joints, true_depth, camera)};
+      taken.measured = sensor.Measured(frame, time_s, true_depth, stage);
+      if (settings.room.IsThere()) taken.mask = stage.BodyMask(posed, true_depth);
+      taken.vertices = std::move(posed.vertices);
       others.Record(frame, time_s, writer);
-      if (settings.room.IsThere()) writer.WriteMask(frame, stage.BodyMask(posed, true_depth));
+      return taken;
+    };
+    MakeOneAhead(settings.frames, take, [&](int frame, const TakenFrame& taken) {
+      taken.WriteTo(writer, frame);
       progress.Advance();
-    }
+    });
   }
   if (settings.room.IsThere()) RecordEmptyRoom(settings, stage.room(), writer);
   writer.Note("template_moved_by_true_bones", misfit.Summary());

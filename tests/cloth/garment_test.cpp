@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cloth/simple_garment.h"
 #include "math/rotation.h"
 #include "support/tiny_body.h"
 
@@ -105,6 +106,31 @@ TEST(Garment, HangsBelowALevelArmOnly) {
   }
   EXPECT_GT(lowest, 0.005);
   EXPECT_LT(lowest, 0.021);
+}
+
+// Straight, bent, twisted and turned round joints.
+TEST(Garment, EqualsThatComputedAnewForEachVertexAndFrame) {
+  const BodyModel body = TinyBody(4);
+  const ClothSettings settings{.volume_m = 0.008,
+                               .thickness_m = 0.006,
+                               .fold_depth_m = 0.008,
+                               .wrinkle_depth_m = 0.003,
+                               .drape_m = 0.01};
+  const Garment garment(body, settings, 7);
+  const SimpleGarment simple(body, settings, 7);
+  std::vector<Vector3f> dressed, expected;
+  for (int frame = 0; frame < 12; ++frame) {
+    JointPose pose = BentElbow(body, 0.2 * frame);
+    for (int bone = 0; bone < kBoneCount; bone += 1 + frame % 3) {
+      pose.local_rotations[bone] =
+          pose.local_rotations[bone] *
+          ExpSo3<double>({0.1 * bone, 0.07 * frame, -0.05 * bone * (frame % 4)});
+    }
+    garment.Dress(pose, 0.3 * frame, dressed);
+    simple.Dress(pose, 0.3 * frame, expected);
+    EXPECT_EQ(dressed, expected) << frame;
+  }
+  EXPECT_NE(dressed, body.rest.vertices);
 }
 
 TEST(Garment, IsTheSameForTheSameSeedAndAnotherForAnother) {

@@ -6,6 +6,7 @@
 
 #include "learning/scan/scan_surface.h"
 #include "learning_scan/analytic_views.h"
+#include "learning_scan/scalar_raycast.h"
 #include "math/rigid.h"
 
 namespace vitruvia {
@@ -97,6 +98,28 @@ TEST(TsdfVolume, RaycastFindsTheBall) {
     }
   }
   EXPECT_GT(seen, 95 * expected / 100);
+}
+
+// From sides that were seen and from one that was not, with the image's last tile cut off.
+TEST(TsdfVolume, RaycastOfEightRaysEqualsThatOfSingleRays) {
+  TsdfVolume volume = BallFromAllSides(3);
+  const Rigidd from_side = CameraLookingAt({0.0, 0.1, 0.7}, {0.1, 0.1, 0});
+  Fuse(volume,
+       ViewOf({{{0.2, 0.15, 0.1}, 0.03}, {{0.2, 0.1, -0.1}, 0.06}}, SmallCamera(), from_side),
+       SmallCamera(), from_side);
+  PinholeCamera camera = SmallCamera();
+  camera.width -= 3;
+  int hits = 0;
+  for (const Vector3d& place : {Vector3d(0.5, 0.2, 0.6), Vector3d(0.1, 0.9, 0.1),
+                                Vector3d(-0.3, -0.1, -0.8), Vector3d(0.0, 0.0, 0.25)}) {
+    const Rigidd subject_from_camera = Inverse(CameraLookingAt(place, {0.03, 0.01, 0}));
+    const PointMap fast = volume.Raycast(camera, subject_from_camera, Team(2));
+    const PointMap simple = ScalarRaycast(volume, camera, subject_from_camera);
+    EXPECT_EQ(fast.points.pixels(), simple.points.pixels()) << place.transpose();
+    EXPECT_EQ(fast.normals.pixels(), simple.normals.pixels()) << place.transpose();
+    for (const Vector3f& normal : fast.normals.pixels()) hits += normal != Vector3f::Zero() ? 1 : 0;
+  }
+  EXPECT_GT(hits, 10000);
 }
 
 TEST(TsdfVolume, SurfaceOfTheBallIsClosedRoundAndFacesOutwards) {

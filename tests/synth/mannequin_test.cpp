@@ -12,7 +12,9 @@
 #include "math/rigid.h"
 #include "math/rotation.h"
 #include "search/kd_tree.h"
+#include "synth/bodies/mannequin_score.h"
 #include "synth/bodies/mannequin_tables.h"
+#include "synth/bodies/refiner.h"
 
 namespace vitruvia {
 namespace {
@@ -294,6 +296,35 @@ TEST(Mannequin, KeepsItsVolumeWhenKneesAndElbowsBend) {
   EXPECT_NEAR(EnclosedVolume(posed) / EnclosedVolume(body.rest), 1.0, 0.02);
 }
 
+TEST(Mannequin, ScoreIsThatOfBisectionInHalfAsManyTrials) {
+  double trials = 0.0;
+  const auto volume_at = [&trials](double score) {
+    ++trials;
+    const double girth = 1.0 + 0.06 * std::max(score, -6.5);  // cut off where no girth is left
+    return 0.06 * girth * girth + 0.01 * girth;
+  };
+  const auto bisected = [&](double volume_m3) {
+    double low = mannequin::kLeastScore, high = mannequin::kGreatestScore, score = 0.0;
+    for (int step = 0; step < mannequin::kScoreSteps; ++step) {
+      score = 0.5 * (low + high);
+      (volume_at(score) < volume_m3 ? low : high) = score;
+    }
+    return score;
+  };
+  int people = 0;
+  double trials_of_search = 0.0;
+  for (double volume_m3 = 0.02; volume_m3 < 0.2; volume_m3 += 3.7e-5, ++people) {
+    const double expected = bisected(volume_m3);
+    trials = 0.0;
+    EXPECT_EQ(mannequin::ScoreOfVolume(volume_at, volume_m3), expected) << volume_m3;
+    trials_of_search += trials;
+  }
+  // Volumes that a tried score has exactly, and such as no score has.
+  for (const double volume_m3 : {volume_at(1.0), volume_at(-3.0), volume_at(8.0), 0.0, 1.0})
+    EXPECT_EQ(mannequin::ScoreOfVolume(volume_at, volume_m3), bisected(volume_m3)) << volume_m3;
+  EXPECT_LT(trials_of_search / people, 13.0);
+}
+
 TEST(Mannequin, RefusesWhatNoBodyIs) {
   EXPECT_THROW(MakeControlBody(Mannequin(Sex::kMale, 2.0, 40.0)), ConfigError);
   EXPECT_THROW(MakeControlBody(Mannequin(Sex::kFemale, 1.2, 150.0)), ConfigError);
@@ -331,6 +362,20 @@ TEST(Refine, DiffusionMovesWeightsOnlyAndSpreadsThem) {
                          [](const auto& w) { return w[0] == 1.0f; });
   };
   EXPECT_LT(rigid(soft), rigid(sharp));
+}
+
+TEST(Refine, RefinerGivesEachBodyWhatRefiningItAloneGives) {
+  const Someone &first = Crowd().front(), &last = Crowd().back();
+  const Refiner refiner(first.control.cage, kTemplate);
+  EXPECT_EQ(refiner.Vertices(last.control), last.body.rest.vertices);
+  EXPECT_EQ(refiner.Refined(last.control).rest.vertices, last.body.rest.vertices);
+  EXPECT_EQ(refiner.Refined(last.control).weights.weights, last.body.weights.weights);
+  const RefinementSettings decimated{.subdivisions = 1, .target_vertices = 500};
+  EXPECT_EQ(Refiner(first.control.cage, decimated).Vertices(last.control),
+            Refine(last.control, decimated).rest.vertices);
+  ControlBody other = first.control;
+  std::swap(other.cage.quads.front(), other.cage.quads.back());
+  EXPECT_THROW(refiner.Vertices(other), std::invalid_argument);
 }
 
 TEST(Refine, RefusesWeightsThatDoNotFitTheCage) {

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "learning/scan/gathered.h"
 #include "math/lanes.h"
 #include "math/rigid.h"
 
@@ -115,14 +116,6 @@ void TsdfVolume::MakeRoom(const PointMap& seen, const Rigidd& subject_from_camer
 
 namespace {
 
-// base[index] in each lane.
-template <class Numbers, class Scalar>
-Numbers Gathered(const Scalar* base, const IntLanes& index) {
-  Numbers numbers;
-  for (int lane = 0; lane < kLanes; ++lane) numbers[lane] = base[index[lane]];
-  return numbers;
-}
-
 // The eight voxels of a row, on their way into the image.
 struct VoxelRows {
   struct Row {
@@ -182,7 +175,6 @@ struct TsdfVolume::View {
     float weight = 0.0f;
     float behind = 0.0f;  // in truncations: how far behind the surface the pixel speaks
   };
-  static constexpr int kTile = 8;  // pixels
 
   const DepthImage& depth;
   PinholeCamera camera;
@@ -236,18 +228,17 @@ struct TsdfVolume::View {
     const IntLanes u0 = Truncate(inside ? u : FloatLanes{});
     const IntLanes v0 = Truncate(inside ? v : FloatLanes{});
     const IntLanes pixel = v0 * depth.width() + u0;
-    const IntLanes is_smooth = inside & Gathered<IntLanes>(smooth.pixels().data(), pixel);
-    if (!Any(is_smooth)) return nearest_m;
+    const IntLanes is_smooth = inside & Gathered(smooth.pixels().data(), pixel);
+    if (Bits(is_smooth) == 0) return nearest_m;
     const IntLanes from = is_smooth ? pixel : IntLanes{};  // with neighbours right and below
     const FloatLanes fu = u - __builtin_convertvector(u0, FloatLanes);
     const FloatLanes fv = v - __builtin_convertvector(v0, FloatLanes);
     const float* above = depth.pixels().data();
     const float* below = above + depth.width();
-    const auto left_above = Gathered<FloatLanes>(above, from);
-    const auto left_below = Gathered<FloatLanes>(below, from);
-    const FloatLanes top = left_above + fu * (Gathered<FloatLanes>(above + 1, from) - left_above);
-    const FloatLanes bottom =
-        left_below + fu * (Gathered<FloatLanes>(below + 1, from) - left_below);
+    const auto left_above = Gathered(above, from);
+    const auto left_below = Gathered(below, from);
+    const FloatLanes top = left_above + fu * (Gathered(above + 1, from) - left_above);
+    const FloatLanes bottom = left_below + fu * (Gathered(below + 1, from) - left_below);
     return is_smooth ? top + fv * (bottom - top) : nearest_m;
   }
 
@@ -296,26 +287,26 @@ void TsdfVolume::IntegrateBlock(int block, const View& view) {
     const Vector3f start = first + static_cast<float>(yz & kSideMask) * axes.col(1) +
                            static_cast<float>(yz >> kSideBits) * axes.col(2);
     const auto [z, u, v, in_view] = rows.At(start);
-    if (!Any(in_view)) continue;
+    if (Bits(in_view) == 0) continue;
     // Not negative where in view, so that cutting off rounds.
     const IntLanes at_u = Truncate(in_view ? u + 0.5f : FloatLanes{});
     const IntLanes at_v = Truncate(in_view ? v + 0.5f : FloatLanes{});
     const IntLanes pixel = at_v * view.pixels.width() + at_u;
     const auto* pixels = reinterpret_cast<const float*>(view.pixels.pixels().data());
     const IntLanes number = pixel * static_cast<int>(sizeof(View::Pixel) / sizeof(float));
-    const auto across = Gathered<FloatLanes>(pixels + 1, number);
+    const auto across = Gathered(pixels + 1, number);
     const IntLanes usable = in_view & (across != 0.0f);
-    if (!Any(usable)) continue;
-    const auto depth = view.DepthAt(u, v, Gathered<FloatLanes>(pixels, number), in_view);
+    if (Bits(usable) == 0) continue;
+    const auto depth = view.DepthAt(u, v, Gathered(pixels, number), in_view);
     const FloatLanes d = (depth - z) * across * per_truncation;
     // 1: the end of what counts.
-    const FloatLanes behind = -d / Gathered<FloatLanes>(pixels + 3, number);
+    const FloatLanes behind = -d / Gathered(pixels + 3, number);
     const IntLanes counts = usable & ~(behind >= 1.0f);
-    if (!Any(counts)) continue;
+    if (Bits(counts) == 0) continue;
     const FloatLanes one = FloatLanes{} + 1.0f;
     const FloatLanes fade =
         behind > kFullWeightBehind ? (1.0f - behind) / (1.0f - kFullWeightBehind) : one;
-    const FloatLanes w = Gathered<FloatLanes>(pixels + 2, number) * fade;
+    const FloatLanes w = Gathered(pixels + 2, number) * fade;
     CellLanes row(reinterpret_cast<const float*>(cells));
     const FloatLanes sum = row.weight + w;
     const FloatLanes distance = (row.distance * row.weight + Min(d, one) * w) / sum;

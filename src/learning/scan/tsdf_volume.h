@@ -10,12 +10,14 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/worker_team.h"
 #include "geometry/camera.h"
 #include "learning/scan/point_map.h"
 #include "learning/scan/settings.h"
+#include "math/lanes.h"
 
 namespace vitruvia {
 
@@ -50,6 +52,16 @@ class TsdfVolume {
   // is unobserved.
   bool Interpolate(const Vector3f& position, float& distance_m) const;
 
+  // Depths (along z) between which rays may meet the surface; far < near: they meet none.
+  struct Range {
+    float near_z = std::numeric_limits<float>::infinity();
+    float far_z = 0.0f;
+  };
+  static constexpr int kTile = 8;  // pixels
+  // Of each tile of an image, row by row.
+  std::vector<Range> DepthRanges(const PinholeCamera& camera,
+                                 const Rigidd& camera_from_subject) const;
+
   int block_count() const { return static_cast<int>(block_corners_.size()); }
   // The lowest lattice point of each block with memory.
   const std::vector<Lattice>& block_corners() const { return block_corners_; }
@@ -60,11 +72,9 @@ class TsdfVolume {
   float voxel_m() const { return voxel_m_; }
 
  private:
-  struct Range;    // of depths at which a tile of the image may hold a surface
-  struct View;     // a frame being integrated
-  struct Sample {  // on a ray
-    float z, distance_m;
-  };
+  struct View;  // a frame being integrated
+  struct VoxelLanes;
+  struct SampleLanes;
 
   // Index into cells_; -1: not allocated.
   std::int64_t IndexOf(int x, int y, int z) const {
@@ -82,13 +92,17 @@ class TsdfVolume {
   void MakeRoom(const PointMap& seen, const Rigidd& subject_from_camera);
   void MakeBlock(const Vector3f& point_in_subject);
   void IntegrateBlock(int block, const View& view);
-  std::vector<Range> DepthRanges(const PinholeCamera& camera,
-                                 const Rigidd& camera_from_subject) const;
-  bool March(const Vector3f& origin, const Vector3f& ray, const Range& range,
-             Vector3f& hit_in_lattice) const;
-  bool Refine(const Vector3f& origin, const Vector3f& ray, Sample outside, Sample inside,
-              Vector3f& hit_in_lattice) const;
-  Vector3f Gradient(const Vector3f& position) const;  // unit length, or zero
+  // The same for eight voxels, where they are wanted.
+  IntLanes IndicesOf(const IntLanes& x, const IntLanes& y, const IntLanes& z,
+                     const IntLanes& wanted) const;
+  VoxelLanes CellsAt(const IntLanes& index) const;
+  IntLanes Interpolate(const PointLanes& position, const IntLanes& wanted,
+                       FloatLanes& distance_m) const;
+  IntLanes March(const Vector3f& origin, const PointLanes& ray, const Range& range,
+                 PointLanes& hit_in_lattice) const;
+  IntLanes Refine(const Vector3f& origin, const PointLanes& ray, SampleLanes outside,
+                  SampleLanes inside, IntLanes crossed, PointLanes& hit_in_lattice) const;
+  IntLanes Gradient(const PointLanes& position, IntLanes wanted, PointLanes& gradient) const;
 
   VolumeSettings settings_;
   float voxel_m_, truncation_m_;
