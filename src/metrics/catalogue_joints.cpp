@@ -119,10 +119,12 @@ std::vector<Metric> JointErrorMetrics() {
            "ankle) is more than 10 cm off. Stretches in which the camera never sees it are left "
            "out, and so are those that the end of the run cuts short before the limb was seen in "
            "more than 10 frames. Seen: a fifth of the vertices of forearm and hand (shin and foot) "
-           "is visible.",
+           "is visible. Absent unless the sequence has a true surface, its own subject and true "
+           "joints of all limbs.",
        .formula = "Σ_limbs number of such stretches",
-       .hidden_and_lost = "A limb out of sight does not count; frames that the tracker calls lost "
-                          "count like all others."},
+       .hidden_and_lost =
+           "A limb out of sight does not count; frames that the tracker calls lost "
+           "count like all others. Frames without the truth of a limb are left out."},
       {.key = "limbs_found_within_10_frames",
        .label = "lost limbs found within 10 frames",
        .unit = "%",
@@ -130,7 +132,8 @@ std::vector<Metric> JointErrorMetrics() {
        .decimals = 1,
        .better = Better::kHigher,
        .definition = "Share of limb_losses that hold at most 10 frames in which the camera sees "
-                     "the limb. Absent if no limb was lost.",
+                     "the limb. A stretch of one frame counts like a long one, and so does one "
+                     "that ends while the limb is hidden. Absent if limb_losses is 0.",
        .formula = "losses with at most 10 seen frames / limb_losses",
        .hidden_and_lost = "As for limb_losses."},
       {.key = "joint_auc_30cm",

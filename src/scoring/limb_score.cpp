@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
+#include <optional>
 
 #include "body/skeleton.h"
 #include "geometry/zbuffer.h"
@@ -29,6 +31,11 @@ constexpr std::array<Limb, 4> kLimbs{{{BoneId::kLeftForearm, BoneId::kLeftHand},
 
 using LimbFlags = std::array<bool, kLimbs.size()>;
 
+// Of a limb in one frame. Unknown: the truth of one of its joints is, and the other one is in
+// place.
+enum class LimbOutcome { kUnknown, kTracked, kLost };
+using LimbOutcomes = std::array<LimbOutcome, kLimbs.size()>;
+
 // Columns of JointErrorsOfFrames that hold the limb's joints.
 std::vector<std::size_t> JointsOf(const Limb& limb, const std::vector<std::string>& names) {
   std::vector<std::size_t> columns;
@@ -39,15 +46,26 @@ std::vector<std::size_t> JointsOf(const Limb& limb, const std::vector<std::strin
   return columns;
 }
 
-std::vector<LimbFlags> LostLimbs(const JointErrorsOfFrames& joints) {
-  std::vector<LimbFlags> lost(joints.errors_m.size(), LimbFlags{});
+LimbOutcome OutcomeOf(const std::vector<double>& errors_m, const std::vector<std::size_t>& joints) {
+  const auto is_off = [&](std::size_t joint) { return errors_m[joint] > kJointThreshold_m; };
+  const auto is_known = [&](std::size_t joint) { return !std::isnan(errors_m[joint]); };
+  if (std::any_of(joints.begin(), joints.end(), is_off)) return LimbOutcome::kLost;
+  const bool is_whole = joints.size() == 2 && std::all_of(joints.begin(), joints.end(), is_known);
+  return is_whole ? LimbOutcome::kTracked : LimbOutcome::kUnknown;
+}
+
+std::vector<LimbOutcomes> OutcomesOf(const JointErrorsOfFrames& joints) {
+  std::vector<LimbOutcomes> outcomes(joints.errors_m.size());
   for (std::size_t k = 0; k < kLimbs.size(); ++k) {
-    for (const std::size_t joint : JointsOf(kLimbs[k], joints.joints)) {
-      for (std::size_t frame = 0; frame < lost.size(); ++frame)
-        lost[frame][k] |= joints.errors_m[frame][joint] > kJointThreshold_m;
-    }
+    const std::vector<std::size_t> columns = JointsOf(kLimbs[k], joints.joints);
+    for (std::size_t frame = 0; frame < outcomes.size(); ++frame)
+      outcomes[frame][k] = OutcomeOf(joints.errors_m[frame], columns);
   }
-  return lost;
+  return outcomes;
+}
+
+bool Holds(const LimbOutcomes& frame, LimbOutcome outcome) {
+  return std::find(frame.begin(), frame.end(), outcome) != frame.end();
 }
 
 // Which limbs the camera sees in a frame of a sequence.
@@ -90,20 +108,21 @@ class LimbView {
 
 using LimbStates = std::array<std::vector<LimbState>, kLimbs.size()>;
 
-bool AnyOf(const LimbFlags& flags) {
-  return std::find(flags.begin(), flags.end(), true) != flags.end();
-}
-
-// Visibility is found only for frames with a lost limb; it does not count elsewhere.
-LimbStates StatesOf(const SequenceReader& sequence, const std::vector<LimbFlags>& lost) {
+// Frames in which a limb's outcome is unknown are left out. Visibility is found only for frames
+// with a lost limb; it does not count elsewhere.
+LimbStates StatesOf(const SequenceReader& sequence, const std::vector<LimbOutcomes>& outcomes) {
   LimbStates states;
-  if (std::none_of(lost.begin(), lost.end(), AnyOf)) return states;
-  LimbView view(sequence);
-  for (std::size_t frame = 0; frame < lost.size(); ++frame) {
-    const LimbFlags visible =
-        AnyOf(lost[frame]) ? view.VisibleIn(static_cast<int>(frame)) : LimbFlags{};
-    for (std::size_t k = 0; k < kLimbs.size(); ++k)
-      states[k].push_back({lost[frame][k], visible[k]});
+  std::optional<LimbView> view;
+  for (std::size_t frame = 0; frame < outcomes.size(); ++frame) {
+    LimbFlags visible{};
+    if (Holds(outcomes[frame], LimbOutcome::kLost)) {
+      if (!view) view.emplace(sequence);
+      visible = view->VisibleIn(static_cast<int>(frame));
+    }
+    for (std::size_t k = 0; k < kLimbs.size(); ++k) {
+      if (outcomes[frame][k] == LimbOutcome::kUnknown) continue;
+      states[k].push_back({outcomes[frame][k] == LimbOutcome::kLost, visible[k]});
+    }
   }
   return states;
 }
@@ -111,12 +130,14 @@ LimbStates StatesOf(const SequenceReader& sequence, const std::vector<LimbFlags>
 }  // namespace
 
 void ScoreLimbs(const SequenceReader& sequence, const EstimateReader& estimate, RunRecord& record) {
-  if (!sequence.info().surface || !sequence.info().subject) return;
-  const JointErrorsOfFrames joints = FindJointErrors(sequence, estimate);
-  if (joints.joints.empty()) return;
+  const SequenceInfo& info = sequence.info();
+  if (!info.surface || !info.subject || info.joints.empty()) return;
+  const LimbStates states = StatesOf(sequence, OutcomesOf(FindJointErrors(sequence, estimate)));
+  const auto is_measured = [](const std::vector<LimbState>& limb) { return !limb.empty(); };
+  if (!std::all_of(states.begin(), states.end(), is_measured)) return;
   LimbRecoveries sum;
-  for (const std::vector<LimbState>& frames : StatesOf(sequence, LostLimbs(joints))) {
-    const LimbRecoveries of_limb = CountRecoveries(frames, kAllowedFrames);
+  for (const std::vector<LimbState>& limb : states) {
+    const LimbRecoveries of_limb = CountRecoveries(limb, kAllowedFrames);
     sum.losses += of_limb.losses;
     sum.in_time += of_limb.in_time;
   }

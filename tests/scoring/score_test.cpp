@@ -175,49 +175,82 @@ TEST(OwnSurfaceScore, IsTheDistanceInBothDirections) {
               testing::Not(testing::HasSubstr("surface")));
 }
 
-// The body stands before a camera for 14 frames. The estimate's left wrist is 20 cm off in frames 1
-// to 12 and the right ankle in frames 1 to 10; the image ends above the ankles' height in the
-// second sequence, in which the legs are not seen.
-TEST(LimbScore, CountsTheFramesInWhichTheCameraSeesALostLimb) {
-  const auto row_of = [](double camera_cy) {
-    const TemporaryFolder folder;
-    const BodyModel body = TinyBody(2);
-    SequenceInfo info;
-    info.camera = {128, 96, 60.0, 60.0, 63.5, camera_cy};
-    info.frames = 14;
-    JointTruth joints;
-    for (const auto& bone : Bones()) info.joints.emplace_back(bone.joint);
-    std::vector<Vector3f> vertices = body.rest.vertices;
-    for (Vector3f& v : vertices) v = {v.x(), 1.0f - v.y(), 3.0f - v.z()};
-    for (const Vector3d& joint : body.skeleton.joints)
-      joints.positions.emplace_back(joint.x(), 1.0 - joint.y(), 3.0 - joint.z());
-    joints.visible.assign(kBoneCount, true);
-    SequenceWriter writer(folder / "sequence", info, body, body.rest);
-    EstimateWriter estimate(folder / "estimate", body.rest);
-    for (int frame = 0; frame < info.frames; ++frame) {
-      writer.Append(DepthImage(128, 96, 3.0f), vertices, joints);
-      TrackResult result;
-      result.outcome = Outcome::kConverged;
-      result.vertices = vertices;
-      result.joints = joints.positions;
-      if (frame >= 1 && frame <= 12) result.joints[FindJoint("left_wrist")].x() += 0.2;
-      if (frame >= 1 && frame <= 10) result.joints[FindJoint("right_ankle")].x() += 0.2;
-      estimate.Append(result, 1.0);
+struct LimbCase {
+  double camera_cy = 47.5;
+  int unknown_frame = -1;        // in which the truth of the left wrist is not known
+  int joint_count = kBoneCount;  // of the sequence, in the skeleton's order
+};
+
+// The summary of 14 frames in which the body stands before a camera. The estimate's left wrist is
+// 20 cm off in frames 1 to 12, the right ankle in frames 1 to 10.
+nlohmann::json LimbRow(const LimbCase& of) {
+  const TemporaryFolder folder;
+  const BodyModel body = TinyBody(2);
+  SequenceInfo info;
+  info.camera = {128, 96, 60.0, 60.0, 63.5, of.camera_cy};
+  info.frames = 14;
+  JointTruth truth;
+  std::vector<Vector3d> joints;
+  for (const Vector3d& joint : body.skeleton.joints)
+    joints.emplace_back(joint.x(), 1.0 - joint.y(), 3.0 - joint.z());
+  for (int j = 0; j < of.joint_count; ++j) {
+    info.joints.emplace_back(Bones()[j].joint);
+    truth.positions.push_back(joints[j]);
+  }
+  truth.visible.assign(of.joint_count, true);
+  std::vector<Vector3f> vertices = body.rest.vertices;
+  for (Vector3f& v : vertices) v = {v.x(), 1.0f - v.y(), 3.0f - v.z()};
+  const int left_wrist = FindJoint("left_wrist"), right_ankle = FindJoint("right_ankle");
+  SequenceWriter writer(folder / "sequence", info, body, body.rest);
+  EstimateWriter estimate(folder / "estimate", body.rest);
+  for (int frame = 0; frame < info.frames; ++frame) {
+    JointTruth of_frame = truth;
+    if (frame == of.unknown_frame) {
+      of_frame.known.assign(of.joint_count, true);
+      of_frame.known[left_wrist] = of_frame.visible[left_wrist] = false;
     }
-    writer.Finish();
-    estimate.Finish();
-    RunRecord record;
-    record.summary = nlohmann::json::object();
-    ScoreRun(SequenceReader(folder / "sequence"), EstimateReader(folder / "estimate"),
-             ScoreSettings(), record);
-    return record.summary;
-  };
-  const nlohmann::json all_seen = row_of(47.5);
-  EXPECT_EQ(all_seen.at("limb_losses"), 2);
-  EXPECT_EQ(all_seen.at("limbs_found_within_10_frames"), 0.5) << "10 frames of the ankle's, not 12";
-  const nlohmann::json legs_out_of_view = row_of(87.5);
-  EXPECT_EQ(legs_out_of_view.at("limb_losses"), 1);
-  EXPECT_EQ(legs_out_of_view.at("limbs_found_within_10_frames"), 0.0);
+    writer.Append(DepthImage(128, 96, 3.0f), vertices, of_frame);
+    TrackResult result;
+    result.outcome = Outcome::kConverged;
+    result.vertices = vertices;
+    result.joints = joints;
+    if (frame >= 1 && frame <= 12) result.joints[left_wrist].x() += 0.2;
+    if (frame >= 1 && frame <= 10) result.joints[right_ankle].x() += 0.2;
+    estimate.Append(result, 1.0);
+  }
+  writer.Finish();
+  estimate.Finish();
+  RunRecord record;
+  record.summary = nlohmann::json::object();
+  ScoreRun(SequenceReader(folder / "sequence"), EstimateReader(folder / "estimate"),
+           ScoreSettings(), record);
+  return record.summary;
+}
+
+TEST(LimbScore, CountsTheFramesInWhichTheCameraSeesALostLimb) {
+  const nlohmann::json row = LimbRow({});
+  EXPECT_EQ(row.at("limb_losses"), 2);
+  EXPECT_EQ(row.at("limbs_found_within_10_frames"), 0.5) << "10 frames of the ankle's, not 12";
+}
+
+TEST(LimbScore, ALimbBesideTheImageIsNoCase) {
+  const nlohmann::json row = LimbRow({.camera_cy = 87.5});  // the image ends above the knees
+  EXPECT_EQ(row.at("limb_losses"), 1);
+  EXPECT_EQ(row.at("limbs_found_within_10_frames"), 0.0);
+}
+
+TEST(LimbScore, AFrameWithoutTruthDoesNotEndALoss) {
+  const nlohmann::json row = LimbRow({.unknown_frame = 6});
+  EXPECT_EQ(row.at("limb_losses"), 2);
+  EXPECT_EQ(row.at("limbs_found_within_10_frames"), 0.5) << "11 frames of the wrist's";
+}
+
+TEST(LimbScore, IsAbsentWithoutTheJointsOfAllLimbs) {
+  for (const int joint_count : {0, 5}) {
+    const nlohmann::json row = LimbRow({.joint_count = joint_count});
+    EXPECT_FALSE(row.contains("limb_losses")) << joint_count;
+    EXPECT_TRUE(row.contains("l2_mean_m")) << joint_count;
+  }
 }
 
 }  // namespace

@@ -179,7 +179,9 @@ void FitSettings::DescribeWeights(Fields& f) {
   }
   f.Section("noise", noise,
             {.meaning = "expected standard deviations, which determine the rows' weights"});
-  f.Section("free_space", free_space, {.meaning = "visible vertices where nothing is measured"});
+  f.Section("free_space", free_space,
+            {.meaning = "visible vertices where the frame shows that nothing is: before the "
+                        "captured surface or beside it"});
 }
 
 void NoiseSettings::Describe(Fields& f) {
@@ -196,22 +198,24 @@ void NoiseSettings::Describe(Fields& f) {
 }
 
 void FreeSpaceSettings::Describe(Fields& f) {
-  f.Integer("margin_px", margin_px,
-            {.meaning = "a vertex that projects this near to a measurement is not in free space",
-             .unit = "px",
-             .min = 0,
-             .max = 64,
-             .origin = Origin::kGuessed,
-             .source = "edges lose their measurements"});
-  f.Number(
-      "reach_m", reach_m,
-      {.meaning =
-           "maximum distance across the line of sight at which the edge of free space is searched",
-       .unit = "m",
-       .min = 0.01,
-       .max = 2,
+  f.Integer(
+      "margin_px", margin_px,
+      {.meaning = "a vertex that projects this near to a measurement, or to the border of the "
+                  "image, is not beside the captured surface",
+       .unit = "px",
+       .min = 0,
+       .max = 64,
        .origin = Origin::kGuessed,
-       .source = "a limb that is farther off is not where it is sought"});
+       .source = "edges lose their measurements"});
+  f.Number("reach_m", reach_m,
+           {.meaning = "maximum distance across the line of sight at which the captured surface or "
+                       "the border of "
+                       "the image is searched from a vertex beside the surface",
+            .unit = "m",
+            .min = 0.01,
+            .max = 2,
+            .origin = Origin::kGuessed,
+            .source = "a limb that is farther off is not where it is sought"});
 }
 
 void SearchSettings::Describe(Fields& f) {

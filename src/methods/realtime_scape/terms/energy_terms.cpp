@@ -69,7 +69,7 @@ const std::array<TermEntry, kEnergyTermCount>& Terms() {
        }},
       {EnergyTerm::kFreeSpace, "free_space", "free_space_weight", 0.0,
        AboutOwnWeight("weight of the term that moves visible vertices out of space that the frame "
-                      "shows to be free"),
+                      "shows to be free, or out of the image where its border is nearer"),
        [](const TermInput& in, double weight, BlockNormalEquations& equations) {
          AddFreeSpaceTerm(in.model, in.pose, in.free_space, in.settings.fit, weight,
                           in.settings.length_unit_m, equations);
