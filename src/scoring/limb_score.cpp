@@ -6,7 +6,7 @@
 #include <iterator>
 #include <optional>
 
-#include "body/skeleton.h"
+#include "body/limbs.h"
 #include "geometry/zbuffer.h"
 #include "metrics/limb_recovery.h"
 #include "metrics/vertex_error.h"
@@ -16,27 +16,18 @@
 namespace vitruvia {
 namespace {
 
-constexpr double kVisibleShare =
-    0.2;  // of a limb's vertices; half of a convex part face the camera
+constexpr double kVisibleShare = 0.2;  // of the lower half's vertices; a camera sees at most half
 constexpr int kAllowedFrames = 10;
 
-// The lower half of a limb; its joints are the proximal ends of its two bones.
-struct Limb {
-  BoneId lower, end;
-};
-constexpr std::array<Limb, 4> kLimbs{{{BoneId::kLeftForearm, BoneId::kLeftHand},
-                                      {BoneId::kRightForearm, BoneId::kRightHand},
-                                      {BoneId::kLeftShin, BoneId::kLeftFoot},
-                                      {BoneId::kRightShin, BoneId::kRightFoot}}};
-
-using LimbFlags = std::array<bool, kLimbs.size()>;
+using LimbFlags = std::array<bool, kLimbCount>;
 
 // Of a limb in one frame. Unknown: the truth of one of its joints is, and the other one is in
 // place.
 enum class LimbOutcome { kUnknown, kTracked, kLost };
-using LimbOutcomes = std::array<LimbOutcome, kLimbs.size()>;
+using LimbOutcomes = std::array<LimbOutcome, kLimbCount>;
 
-// Columns of JointErrorsOfFrames that hold the limb's joints.
+// Columns of JointErrorsOfFrames that hold the joints of the limb's lower half: the proximal ends
+// of its two bones.
 std::vector<std::size_t> JointsOf(const Limb& limb, const std::vector<std::string>& names) {
   std::vector<std::size_t> columns;
   for (const BoneId bone : {limb.lower, limb.end}) {
@@ -56,8 +47,8 @@ LimbOutcome OutcomeOf(const std::vector<double>& errors_m, const std::vector<std
 
 std::vector<LimbOutcomes> OutcomesOf(const JointErrorsOfFrames& joints) {
   std::vector<LimbOutcomes> outcomes(joints.errors_m.size());
-  for (std::size_t k = 0; k < kLimbs.size(); ++k) {
-    const std::vector<std::size_t> columns = JointsOf(kLimbs[k], joints.joints);
+  for (int k = 0; k < kLimbCount; ++k) {
+    const std::vector<std::size_t> columns = JointsOf(Limbs()[k], joints.joints);
     for (std::size_t frame = 0; frame < outcomes.size(); ++frame)
       outcomes[frame][k] = OutcomeOf(joints.errors_m[frame], columns);
   }
@@ -76,10 +67,10 @@ class LimbView {
         correspondence_(sequence.subject().rest, sequence.true_rest_mesh()),
         zbuffer_(sequence.info().camera) {
     const auto& bones = sequence.subject().weights.bones;
-    for (std::size_t k = 0; k < kLimbs.size(); ++k) {
+    for (int k = 0; k < kLimbCount; ++k) {
       for (std::size_t i = 0; i < bones.size(); ++i) {
         const auto bone = static_cast<BoneId>(bones[i][0]);
-        if (bone == kLimbs[k].lower || bone == kLimbs[k].end) vertices_[k].push_back(i);
+        if (bone == Limbs()[k].lower || bone == Limbs()[k].end) vertices_[k].push_back(i);
       }
     }
   }
@@ -90,7 +81,7 @@ class LimbView {
     const std::vector<bool> seen = VisiblePoints(correspondence_.TruePositions(surface), rendered,
                                                  sequence_.info().camera, kVisibleWithin_m);
     LimbFlags visible{};
-    for (std::size_t k = 0; k < kLimbs.size(); ++k) {
+    for (int k = 0; k < kLimbCount; ++k) {
       const auto count = std::count_if(vertices_[k].begin(), vertices_[k].end(),
                                        [&seen](std::size_t i) { return seen[i]; });
       visible[k] =
@@ -103,10 +94,10 @@ class LimbView {
   const SequenceReader& sequence_;
   RestCorrespondence correspondence_;
   ZBuffer zbuffer_;
-  std::array<std::vector<std::size_t>, kLimbs.size()> vertices_;
+  std::array<std::vector<std::size_t>, kLimbCount> vertices_;
 };
 
-using LimbStates = std::array<std::vector<LimbState>, kLimbs.size()>;
+using LimbStates = std::array<std::vector<LimbState>, kLimbCount>;
 
 // Frames in which a limb's outcome is unknown are left out. Visibility is found only for frames
 // with a lost limb; it does not count elsewhere.
@@ -119,7 +110,7 @@ LimbStates StatesOf(const SequenceReader& sequence, const std::vector<LimbOutcom
       if (!view) view.emplace(sequence);
       visible = view->VisibleIn(static_cast<int>(frame));
     }
-    for (std::size_t k = 0; k < kLimbs.size(); ++k) {
+    for (int k = 0; k < kLimbCount; ++k) {
       if (outcomes[frame][k] == LimbOutcome::kUnknown) continue;
       states[k].push_back({outcomes[frame][k] == LimbOutcome::kLost, visible[k]});
     }

@@ -44,17 +44,6 @@ void SetBone(const LimbBody& body, int bone, const Matrix3<double>& rotation, co
 
 }  // namespace
 
-const std::array<Limb, 4>& Limbs() {
-  using enum BoneId;
-  static const std::array<Limb, 4> limbs{{
-      {kLeftUpperArm, kLeftForearm, kLeftHand, -Vector3d::UnitY()},
-      {kRightUpperArm, kRightForearm, kRightHand, Vector3d::UnitY()},
-      {kLeftThigh, kLeftShin, kLeftFoot, Vector3d::UnitX()},
-      {kRightThigh, kRightShin, kRightFoot, Vector3d::UnitX()},
-  }};
-  return limbs;
-}
-
 BodyPose WithLimbAt(const LimbBody& body, const BodyPose& pose, const Limb& limb,
                     const Vector3d& target, double swivel_rad) {
   constexpr double kStraight = 0.999;  // share of the limb's length that its ends are apart at most

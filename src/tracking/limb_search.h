@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "body/limbs.h"
 #include "body/skeleton.h"
 #include "body/skinning.h"
 #include "config/settings.h"
@@ -31,15 +32,6 @@ struct LimbBody {
 // A vertex belongs to the bone of its largest weight.
 LimbBody LimbBodyOf(const Skeleton& skeleton, const std::array<Vector3d, kBoneCount>& rest_centers,
                     const std::vector<Vector3f>& rest_vertices, const SkinWeights& weights);
-
-// The two bones of an arm or leg and the one that hangs from them.
-struct Limb {
-  BoneId upper, lower, end;
-  // Axis of the hinge between upper and lower bone, rest pose; the limb bends by a positive angle
-  // about it.
-  Vector3d hinge;
-};
-const std::array<Limb, 4>& Limbs();
 
 // The pose with the limb's lower end (wrist, ankle) at `target` (camera frame), or as near to it as
 // the limb reaches, bent in the direction of its hinge. `swivel_rad` turns the limb about the line

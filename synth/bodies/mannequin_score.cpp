@@ -11,10 +11,10 @@ class ScoreSearch {
       : volume_at_(volume_at), volume_m3_(volume_m3) {}
 
   double Find() {
-    double low = kLeast, high = kGreatest, score = 0.0;
+    double low = kLeastScore, high = kGreatestScore, score = 0.0;
     for (int step = 0; step < kScoreSteps; ++step) {
       score = 0.5 * (low + high);
-      if (!enclosed_ && below_ > kLeast && above_ < kGreatest) Enclose();
+      if (!enclosed_ && below_ > kLeastScore && above_ < kGreatestScore) Enclose();
       if (score > below_ && score < above_) Try(score);
       (score <= below_ ? low : high) = score;
     }
@@ -22,8 +22,6 @@ class ScoreSearch {
   }
 
  private:
-  static constexpr double kLeast = kLeastScore, kGreatest = kGreatestScore;
-
   struct Trial {
     double score = 0.0, volume_m3 = 0.0;
   };
@@ -58,7 +56,8 @@ class ScoreSearch {
 
   const std::function<double(double)>& volume_at_;
   double volume_m3_;
-  double below_ = kLeast, above_ = kGreatest;  // the nearest scores of too small and other volumes
+  double below_ = kLeastScore,
+         above_ = kGreatestScore;  // the nearest scores of too small and other volumes
   Trial before_, last_;
   bool enclosed_ = false;
 };

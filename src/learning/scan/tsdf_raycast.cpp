@@ -74,11 +74,6 @@ std::vector<TsdfVolume::Range> TsdfVolume::DepthRanges(const PinholeCamera& came
 
 namespace {
 
-// A point for each lane, from points side by side.
-PointLanes Transposed(const std::array<Vector3f, kLanes>& points) {
-  return LoadPoints(points.front().data());
-}
-
 PointLanes Along(const Vector3f& origin, const FloatLanes& z, const PointLanes& ray) {
   return {origin.x() + z * ray.x, origin.y() + z * ray.y, origin.z() + z * ray.z};
 }
@@ -261,7 +256,7 @@ PointMap TsdfVolume::Raycast(const PinholeCamera& camera, const Rigidd& subject_
                                                       static_cast<float>(v), 1.0f);
           rays[lane] = transform.rotation * in_camera / voxel_m_;
         }
-        const PointLanes ray = Transposed(rays);
+        const PointLanes ray = LoadPoints(rays.front().data());
         PointLanes hit, normal;
         IntLanes met = March(origin, ray, range, hit);
         met &= Gradient(hit, met, normal);

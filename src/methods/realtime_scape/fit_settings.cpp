@@ -209,8 +209,7 @@ void FreeSpaceSettings::Describe(Fields& f) {
        .source = "edges lose their measurements"});
   f.Number("reach_m", reach_m,
            {.meaning = "maximum distance across the line of sight at which the captured surface or "
-                       "the border of "
-                       "the image is searched from a vertex beside the surface",
+                       "the border of the image is searched from a vertex beside the surface",
             .unit = "m",
             .min = 0.01,
             .max = 2,

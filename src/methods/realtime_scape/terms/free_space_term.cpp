@@ -10,13 +10,23 @@
 namespace vitruvia::realtime_scape {
 namespace {
 
+int SquaredDistance(Pixel from, Pixel to) {
+  const int du = to.u - from.u, dv = to.v - from.v;
+  return du * du + dv * dv;
+}
+
+// In columns or rows, whichever are more.
+int ChessboardDistance(Pixel from, Pixel to) {
+  return std::max(std::abs(to.u - from.u), std::abs(to.v - from.v));
+}
+
 // The measured pixel nearest to the unmeasured pixel `from`, at most reach_px away.
 std::optional<Pixel> NearestMeasured(const DepthImage& captured, Pixel from, int reach_px) {
   std::optional<Pixel> nearest;
   int nearest_squared = std::numeric_limits<int>::max();
   const auto look = [&](int u, int v) {
     if (!captured.Contains(u, v) || captured(u, v) <= 0.0f) return;
-    const int du = u - from.u, dv = v - from.v, squared = du * du + dv * dv;
+    const int squared = SquaredDistance(from, {u, v});
     if (squared < nearest_squared) {
       nearest_squared = squared;
       nearest = {u, v};
@@ -43,15 +53,6 @@ Pixel NearestOutside(const DepthImage& image, Pixel from) {
   return least == from.v + 1 ? Pixel{from.u, -1} : Pixel{from.u, image.height()};
 }
 
-int Columns(Pixel from, Pixel to) {  // or rows, whichever are more
-  return std::max(std::abs(to.u - from.u), std::abs(to.v - from.v));
-}
-
-int SquaredDistance(Pixel from, Pixel to) {
-  const int du = to.u - from.u, dv = to.v - from.v;
-  return du * du + dv * dv;
-}
-
 Vector3f PlaceAt(const PinholeCamera& camera, Pixel pixel, float z) {
   return camera.Unproject(static_cast<float>(pixel.u), static_cast<float>(pixel.v), z);
 }
@@ -70,11 +71,13 @@ std::optional<Vector3f> WayOutBeside(const Vector3f& vertex, Pixel at, const Dep
                                      const FreeSpaceSettings& settings) {
   const int reach_px = static_cast<int>(settings.reach_m * camera.fx / double{vertex.z()});
   Pixel way_out = NearestOutside(captured, at);
-  if (const auto edge = NearestMeasured(captured, at, reach_px);
+  // What is farther away than the border cannot be nearest.
+  const int search_px = std::min(reach_px, ChessboardDistance(at, way_out));
+  if (const auto edge = NearestMeasured(captured, at, search_px);
       edge && SquaredDistance(at, *edge) <= SquaredDistance(at, way_out)) {
     way_out = *edge;
   }
-  const int distance_px = Columns(at, way_out);
+  const int distance_px = ChessboardDistance(at, way_out);
   if (distance_px <= settings.margin_px || distance_px > reach_px) return {};
   return PlaceAt(camera, way_out, vertex.z());
 }
